@@ -59,7 +59,7 @@ public:
 private:
     // Edges of which a neighbour of the face beside them is in the way of the line by a cosine of this press
     // half as much as edges without.
-    static constexpr Real kSoftened = Real(0.05f);
+    static constexpr Real kSoftened = Real(0.04f);
 
     Vec3<Real> at(std::uint32_t node) const { return Vec3<Real>(positions_[node]); }
 

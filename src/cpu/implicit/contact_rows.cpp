@@ -12,8 +12,6 @@
 namespace gelatin::cpu {
 namespace {
 
-// Contacts this many reaches apart may come together in a step that deforms bodies.
-constexpr double kNear = 1.5;
 // A contact that is found nearer than its reach presses from there; the reach grows to all of it within this
 // time [s].
 constexpr double kEasing = 1.0 / 3.0;
@@ -41,9 +39,8 @@ void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weigh
     if (!is_known && row.gap <= Real(0)) row.ease = static_cast<Real>(kLeastReach) * row.reach - row.gap;
     row.gap += row.ease;
     const Real there = row.gap_at(relative<Real>(row, start.expected));
-    if (std::min(row.gap, there) > static_cast<Real>(kNear) * row.reach &&
-        there > row.reach + Real(0.5) * std::abs(there - row.gap))
-        return;
+    if (row.object == kNoNode && std::min(row.gap, there) > row.reach + start.slacks[row.other])
+        return;  // of pairs, only those are listed that may come as near
     row.stiffness = weight * Real(4) / (first + second);
     const Real reach = row.reach;
     if (is_known) {

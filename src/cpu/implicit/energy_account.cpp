@@ -16,8 +16,8 @@ namespace {
 
 // Of energies, as a part of them, and for bodies at rest [J].
 constexpr double kRounding = 1e-7, kLeast = 1e-9;
-// What is owed up to this part of an island's energy is not taken: energies have rounding, and BDF2's go to
-// and fro.
+// What is owed up to this part of an island's energy is not taken: energies have rounding, and go to and
+// fro.
 constexpr double kSlack = 0.002;
 
 }  // namespace

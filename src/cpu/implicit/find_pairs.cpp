@@ -316,10 +316,15 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool 
         for (std::uint32_t e = first.y; e < end.y; ++e) {
             const FaceEdge& edge = parts.edges[e];
             const AxisBox<Real> box = swept(boxes_.edges[e], motion);
-            for (const Near& near : found.edges) {
+            // Of a body itself, only later ones: they ascend, as in trees.
+            const auto first_near =
+                other == object ? std::partition_point(found.edges.begin(), found.edges.end(),
+                                                       [&](const Near& near) { return near.index <= e; })
+                                : found.edges.begin();
+            for (auto at = first_near; at != found.edges.end(); ++at) {
+                const Near& near = *at;
                 const FaceEdge& to = parts.edges[near.index];
-                if (!meet(box, near.box)) continue;
-                if (other == object && (near.index <= e || share_end(edge, to))) continue;
+                if (!meet(box, near.box) || (other == object && share_end(edge, to))) continue;
                 const ContactPair pair{{edge.a, edge.b, to.a, to.b}, e, near.index, object, other, 2, reach};
                 if (!changed || near.is_new || has_changed_node(pair)) found.candidates.push_back(pair);
             }

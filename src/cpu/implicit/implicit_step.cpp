@@ -1,6 +1,7 @@
 #include "cpu/implicit/implicit_step.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -15,6 +16,9 @@ namespace {
 
 // In shorter steps contacts are no stiffer than in one of this length: else impacts give nothing back [s].
 constexpr double kStiffestStep = 1.0 / 60.0;
+// Into how many parts a step is divided at least, by how bodies near others move: all, along each other,
+// hardly.
+constexpr std::array<std::uint32_t, 3> kParts{4, 2, 1};
 // Nodes may end this far from where they are expected: this part of the thickness, and of the longest
 // displacement.
 constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
@@ -26,11 +30,11 @@ constexpr double kRestingFall = 1.0 / 60.0, kRestingTime = 0.1;
 // What meets more slowly than after so long a fall does not bounce [s].
 constexpr double kBouncingFall = 1.0 / 30.0;
 // Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
-// part of their share of the island's energy.
-constexpr double kAtRest = 0.002, kInIsland = 0.1;
+// part of their share of the island's energy; and in one step by what rounding makes of so many positions.
+constexpr double kAtRest = 0.001, kInIsland = 0.1, kRoundings = 8.0;
 // A step that gains an island of bodies this part of its energy was too long for its linearisation, and is
 // made shorter.
-constexpr double kMostGain = 0.1;
+constexpr double kMostGain = 0.05;
 // A step is divided in which contacts would come into each other by so many reaches: by two edges of the
 // surface.
 constexpr double kDeepest = 20.0;
@@ -62,7 +66,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
       ends_(model_->node_count()) {
-    system_.iterations = 2 * settings_.iterations;
+    system_.iterations = settings_.iterations;
 }
 
 template <class Real>
@@ -76,7 +80,7 @@ void ImplicitStep<Real>::forget() {
     rows_.forget();
     acting_.clear();
     pairs_.forget();
-    is_any_near_ = false;
+    parts_ = 1;
     scheme_.forget();
     restitution_.forget();
     std::fill(paces_.begin(), paces_.end(), Pace::moving);
@@ -86,7 +90,7 @@ void ImplicitStep<Real>::forget() {
 template <class Real>
 void ImplicitStep<Real>::archive(Archive& archive) {
     scheme_.archive(archive);
-    archive.value(is_any_near_);
+    archive.value(parts_);
     archive.array(paces_);
     archive.array(is_struck_);
     archive.array(held_counts_);
@@ -107,6 +111,7 @@ template <class Real>
 Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
+    shorten(input);
     scheme_.begin(previous);
     begin(input, previous);
     for (bool damps = false, has_past = false;;) {
@@ -120,9 +125,11 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             predict(input, previous);
             const bool is_found = damps || detect(previous, is_shortest);
             if (is_found)
-                rows_.make({previous.positions, expected_, compliances_, step_, scheme_.last_step()},
+                rows_.make({previous.positions, expected_, compliances_, slacks_, step_, scheme_.last_step()},
                            pairs_.pairs(), system_.rows);
             if (wake_near(input, previous)) continue;
+            parts_ = count_parts();
+            if (is_found && shorten(input)) continue;
             if (!is_found || (!is_shortest && deepest() > static_cast<Real>(kDeepest))) {
                 divide();
                 continue;
@@ -180,8 +187,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             energy_.change();
         break;
     }
-    scheme_.end(previous, input.step);
-    is_any_near_ = !system_.rows.empty() || !pairs_.pairs().empty();
+    scheme_.end(previous, current);
     return input.step;
 }
 
@@ -281,6 +287,25 @@ Real ImplicitStep<Real>::deepest() const {
     return deepest;
 }
 
+// By how bodies near others move.
+template <class Real>
+std::uint32_t ImplicitStep<Real>::count_parts() const {
+    Pace pace = Pace::still;
+    for (const ContactRow<Real>& row : system_.rows)
+        for (const std::uint32_t o : {row.object, row.other})
+            if (o != kNoNode && model_->is_body(o)) pace = std::min(pace, paces_[o]);
+    return kParts[static_cast<std::size_t>(pace)];
+}
+
+// @return whether the part was too long
+template <class Real>
+bool ImplicitStep<Real>::shorten(StepInput<Real>& input) const {
+    const Real longest = input.divided / static_cast<Real>(parts_);
+    if (!(longest > Real(0)) || input.step < Real(1.01) * longest) return false;  // but for rounding
+    input.step = longest;
+    return true;
+}
+
 // Where nodes are expected, without forces but gravity and loads; and what is asked about them.
 template <class Real>
 void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous) {
@@ -305,26 +330,35 @@ Vec3<Real> ImplicitStep<Real>::acceleration(const StepInput<Real>& input, const 
                                      : gravity + previous.positions[n].w * Vec3<Real>(input.load_forces[n]);
 }
 
-// BDF2 hardly damps, so bodies that rest would tremble on for ever: islands that are calm go on by implicit
-// Euler's scheme, and those that are still with dampers, too. So do bodies that restitution has struck, for a
-// step.
-// @return whether any body goes on by BDF2
+// Schemes that hardly damp let bodies that rest tremble on for ever: islands that are calm go on by implicit
+// Euler's, and those that are still with dampers, too. So do bodies that restitution has struck, for a step;
+// and islands that touch something, and of which the step resolves none: what stops within a step would leave
+// with any speed.
+// @return whether any body goes on by another
 template <class Real>
 bool ImplicitStep<Real>::choose_schemes(bool damps) {
     std::vector<Pace> paces(model_->body_count(), Pace::still);
-    std::vector<std::uint8_t> is_struck(model_->body_count());
+    std::vector<std::uint8_t> is_struck(model_->body_count()), touches = is_struck, resolves = is_struck;
+    for (const ContactRow<Real>& row : system_.rows)
+        touches[islands_.of_bodies[model_->is_body(row.other) ? row.other : row.object]] = 1;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands_.of_bodies[o];
         paces[island] = std::min(paces[island], paces_[o]);
         if (is_struck_[o] != 0) is_struck[island] = 1;
+        if (scheme_.resolves(o, step_)) resolves[island] = 1;
     }
-    const bool has_past = !damps && scheme_.can_go_on(step_);
+    const bool has_past = !damps && scheme_.has_past();
     bool any_goes_on = false;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands_.of_bodies[o];
         const Pace pace = paces[island];
-        const bool goes_on = has_past && pace == Pace::moving && is_struck[island] == 0;
-        scheme_.set(o, step_, goes_on, pace == Pace::still ? static_cast<Real>(kRestingTime) : Real(0));
+        const bool goes_on = has_past && pace == Pace::moving && is_struck[island] == 0 &&
+                             (touches[island] == 0 || resolves[island] != 0);
+        if (goes_on) {
+            scheme_.set_second_order(o, step_);
+        } else {
+            scheme_.set(o, step_, pace == Pace::still ? static_cast<Real>(kRestingTime) : Real(0));
+        }
         any_goes_on = any_goes_on || goes_on;
     }
     for (ContactRow<Real>& row : system_.rows) {
@@ -400,13 +434,17 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     });
     system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step);
     const double fall = kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
+    const double rounding =
+        kRoundings * static_cast<double>(std::numeric_limits<Real>::epsilon() / input.step);
     std::vector<double> energies(model_->body_count(), 0.0), of_islands = energies;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const ModelObject& object = model_->objects[o];
         const std::uint32_t island = islands_.of_bodies[o];
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-            const glm::dvec3 v = glm::dvec3(previous.velocities[n]) - islands_.velocities[island];
-            energies[o] += 0.5 * static_cast<double>(model_->masses[n]) * (glm::dot(v, v) + fall * fall);
+            const glm::dvec3 v = glm::dvec3(previous.velocities[n]) - islands_.velocities[island],
+                             x(previous.positions[n]);
+            energies[o] += 0.5 * static_cast<double>(model_->masses[n]) *
+                           (glm::dot(v, v) + fall * fall + rounding * rounding * glm::dot(x, x));
         }
         of_islands[island] += energies[o];
     }

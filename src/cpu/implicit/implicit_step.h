@@ -35,6 +35,7 @@ struct ImplicitSettings {
 template <class Real>
 struct StepInput {
     Real step;                                     ///< h [s]
+    Real divided;                                  ///< of which it is a part, or 0: it is whole [s]
     std::span<const Vec4<Real>> load_forces = {};  ///< [N], shape [nodes], or empty
     const Pulls<Real>* pulls = nullptr;            ///< null: no hand holds anything
     /// Whose sleeping bodies are held until something comes near them; null: none sleeps.
@@ -80,12 +81,6 @@ public:
     /// When the last step has ended [J].
     double contact_energy() const { return energy_.in_contacts(); }
 
-    /// Whether anything was near anything else in the last step.
-    bool any_near() const { return is_any_near_; }
-
-    /// Whether all bodies hardly moved towards or away from what they touch, nor vibrated.
-    bool is_calm() const { return std::find(paces_.begin(), paces_.end(), Pace::moving) == paces_.end(); }
-
     const StepSystem<Real>& system() const { return system_; }
 
 private:
@@ -113,6 +108,8 @@ private:
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real deepest() const;
+    std::uint32_t count_parts() const;
+    bool shorten(StepInput<Real>& input) const;
     bool detect(const Nodes<Real>& previous, bool is_shortest, bool own = true);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
     Field elastic_forces();
@@ -131,12 +128,12 @@ private:
     EnergyAccount<Real> energy_;
     StepSystem<Real> system_;
     TimeScheme<Real> scheme_;
+    std::uint32_t parts_ = 1;                 // into which steps are divided
     std::vector<Pace> paces_;                 // of bodies, at the end of the last step
     std::vector<std::uint8_t> asleep_;        // bodies
     std::vector<std::uint8_t> is_struck_;     // whose velocities do not go on from those before
     std::vector<std::uint32_t> held_counts_;  // of bodies' nodes, when the last step began
     Islands islands_;
-    bool is_any_near_ = false;
     Real step_ = 0;
     std::vector<Real> compliances_;              // of nodes in contacts, 1 / h_i [m/N]
     Field expected_;                             // displacements without forces [m]

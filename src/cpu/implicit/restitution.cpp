@@ -48,7 +48,12 @@ void Restitution<Real>::note(const Step& step, const RigidLevel<Real>& rigid, co
         const ContactRow<Real>& row = step.rows[r];
         const auto force = static_cast<double>(row.pressing(relative<Real>(row, step.displacements)));
         if (!(force > 0.0) || row.object == row.other) continue;
-        const Pair pair{row.object == kNoNode ? model_->objects.size() + row.plane() : row.object, row.other};
+        Pair pair{row.object == kNoNode ? model_->objects.size() + row.plane() : row.object, row.other};
+        double side = 1.0;  // of the row's normal; nodes of either object may press faces of the other
+        if (row.object != kNoNode && row.object > row.other) {
+            std::swap(pair.first, pair.second);
+            side = -1.0;
+        }
         if (!(restitution_of(pair) > 0.0) || !(is_free(pair.first) || is_free(pair.second))) continue;
         const glm::dvec3 normal(row.normal);
         glm::dvec3 point(0.0), held(0.0);  // held: velocity of what is not free
@@ -63,9 +68,9 @@ void Restitution<Real>::note(const Step& step, const RigidLevel<Real>& rigid, co
         const glm::dvec3 center = rigid.center(is_free(pair.second) ? pair.second : pair.first);
         Meeting& meeting = meetings_[pair];
         meeting.size += impulse;
-        meeting.impulse += impulse * normal;
+        meeting.impulse += side * impulse * normal;
         meeting.arm += impulse * (point - center);
-        meeting.held += impulse * held;
+        meeting.held += side * impulse * held;
         Pressing& pressing = meeting.pressing;
         pressing.force += force;
         pressing.before += force * (apart + glm::dot(normal, glm::dvec3(rigid.relative(r, before))));
@@ -79,6 +84,7 @@ bool Restitution<Real>::run(const Step& step, const RigidLevel<Real>& rigid, Nod
     std::fill(is_struck.begin(), is_struck.end(), std::uint8_t(0));
     if (step.rows.empty() && meetings_.empty()) return false;
     note(step, rigid, current);
+    std::vector<double> energies_after(step.energies_after.begin(), step.energies_after.end());
     bool strikes = false;
     for (auto at = meetings_.begin(); at != meetings_.end();) {
         Meeting& meeting = at->second;
@@ -104,13 +110,16 @@ bool Restitution<Real>::run(const Step& step, const RigidLevel<Real>& rigid, Nod
             double lacking = restitution_of(at->first) * meeting.approach - impact.apart;
             // No more than they have lost: bodies may vibrate instead.
             if (meeting.held == glm::dvec3(0.0)) {
-                const double lost = std::max(meeting.energy - energy_of(step.energies_after), 0.0);
+                const double lost = std::max(meeting.energy - energy_of(energies_after), 0.0);
                 lacking =
                     std::min(lacking, std::sqrt(impact.apart * impact.apart + 2.0 * lost * impact.mobility) -
                                           impact.apart);
             }
             if (is_over && lacking > 0.0) {
                 strike(impact, lacking, current, is_struck);
+                for (const Side& side : impact.sides)
+                    energies_after[side.object] += lacking * (impact.apart + 0.5 * lacking) /
+                                                   impact.mobility / static_cast<double>(impact.sides.size());
                 strikes = true;
             }
         }

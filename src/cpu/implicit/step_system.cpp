@@ -20,6 +20,10 @@ constexpr double kLeastGap = 0.25;
 constexpr double kTurned = 0.1;
 constexpr int kHalvings = 20;
 constexpr int kMostRigidRounds = 20;
+// Linearisations of contacts in a step, at most. Each is solved until it lacks this part of the energy that
+// it lacked at first.
+constexpr int kMostLinearisations = 4;
+constexpr double kForcing = 0.05;
 constexpr std::size_t kChunk = 1024;  // of a sum
 
 }  // namespace
@@ -192,35 +196,40 @@ double StepSystem<Real>::find_lack(bool& is_enough) const {
     return std::accumulate(lacks.begin(), lacks.end(), 0.0);
 }
 
-// From no direction, with the linear residual in residual_. Also finds A direction_, without rows.
+// From no direction, with the linear residual in residual_. Also finds A direction_, without rows. A step
+// makes one iteration at least: what elements exert counts, however short it is.
+// @param forcing part of what is lacking at first that may be left @return iterations
 template <class Real>
-void StepSystem<Real>::conjugate_gradients(int count) {
+int StepSystem<Real>::conjugate_gradients(int count, double forcing) {
     awake_.for_each([&](std::uint32_t n) { direction_[n] = moved_[n] = Vec3<Real>(0); });
     precondition(residual_, z_);
     p_ = z_;
     bool is_enough = false;
     double rz = find_lack(is_enough);
-    for (int k = 0; k < count && !is_enough; ++k) {
+    const double enough_of_all = forcing * rz;
+    int k = 0;
+    for (; k < count && ((!is_enough && rz > enough_of_all) || (counts.iterations == 0 && rz > 0.0)); ++k) {
         ++counts.iterations;
         multiply(p_, product_);
         with_rows_ = product_;
         add_row_forces([&](std::size_t r) { return tangents_[r].stiffness * relative<Real>(rows[r], p_); },
                        with_rows_);
         const double curvature = dot(p_, with_rows_);
-        if (!(curvature > 0.0)) break;
+        if (!(curvature > 0.0)) return 0;
         const auto a = static_cast<Real>(rz / curvature);
         awake_.for_each([&](std::uint32_t n) {
             direction_[n] += a * p_[n];
             moved_[n] += a * product_[n];
             residual_[n] -= a * with_rows_[n];
         });
-        if (k + 1 == count) break;
+        if (k + 1 == count) return count;
         precondition(residual_, z_);
         const double next = find_lack(is_enough);
         const auto b = static_cast<Real>(next / rz);
         rz = next;
         awake_.for_each([&](std::uint32_t n) { p_[n] = z_[n] + b * p_[n]; });
     }
+    return k;
 }
 
 // How far along a direction the objective falls, by at most all of it. @param changes of s @param base what
@@ -318,12 +327,13 @@ void StepSystem<Real>::rigid_newton() {
 }
 
 // A Newton step on all nodes, from the tangents that are set. @param is_first of this system
+// @return whether there was any to make
 template <class Real>
-void StepSystem<Real>::newton_step(int iterations, bool is_first) {
+bool StepSystem<Real>::newton_step(int most_iterations, double forcing, bool is_first) {
     prepare_preconditioner(!is_first);
     residual_ = base_;
     add_row_forces([&](std::size_t r) { return tangents_[r].force(slips_[r]); }, residual_);
-    conjugate_gradients(iterations);
+    if (conjugate_gradients(most_iterations, forcing) == 0) return false;
     std::vector<Vec3<Real>> changes(rows.size());
     for_each_index(rows.size(), [&](std::size_t r) { changes[r] = relative<Real>(rows[r], direction_); });
     const double part =
@@ -333,6 +343,7 @@ void StepSystem<Real>::newton_step(int iterations, bool is_first) {
         base_[n] -= static_cast<Real>(part) * moved_[n];
     });
     find_slips();
+    return true;
 }
 
 template <class Real>
@@ -348,10 +359,11 @@ void StepSystem<Real>::solve() {
     }
     find_base_residual();
     find_chords(expected);
-    newton_step(rows.empty() ? iterations : iterations / 2, true);
-    if (!rows.empty()) {
-        find_tangents();
-        newton_step(iterations - iterations / 2, false);
+    if (rows.empty()) {
+        newton_step(2 * iterations, 0.0, true);
+    } else {
+        for (int k = 0; k < kMostLinearisations && newton_step(iterations, kForcing, k == 0); ++k)
+            find_tangents();
     }
     rigid_newton();
 }

@@ -37,7 +37,7 @@ public:
     std::vector<Vec3<Real>> loads;  ///< m / h^2 (y - x) + f [N], shape [nodes]
     std::vector<ContactRow<Real>> rows;
     std::vector<Vec3<Real>> displacements;  ///< d [m]; input: of held nodes, and a guess; output: of all
-    int iterations = 20;                    ///< of conjugate gradients, at most, of both steps together
+    int iterations = 10;                    ///< of conjugate gradients for each linearisation, at most
     std::vector<double> enough;             ///< energy by which each may miss its least, by object [J]
     SolveCounts counts;
 
@@ -62,11 +62,11 @@ private:
     void prepare_preconditioner(bool only_rows);
     void precondition(const Field& r, Field& z);
     double find_lack(bool& is_enough) const;
-    void conjugate_gradients(int count);
+    int conjugate_gradients(int count, double forcing);
     double line_search(std::span<const Vec3<Real>> changes, double base, double curvature);
     bool is_balanced(double tolerance, std::span<const Motion> forces) const;
     void rigid_newton();
-    void newton_step(int iterations, bool is_first);
+    bool newton_step(int most_iterations, double forcing, bool is_first);
 
     std::shared_ptr<const Model> model_;
     ObjectPieces pieces_, awake_;                          // of bodies' nodes; of those that move

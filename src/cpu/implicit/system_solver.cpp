@@ -10,9 +10,8 @@
 namespace gelatin::cpu {
 namespace {
 
-// Into how many parts a step is divided, where bodies near each other move and where not; and at most, where
-// they meet fast.
-constexpr int kPartsNear = 4, kPartsFar = 2, kMostParts = 256;
+// Into how many parts a step is divided at most, where bodies meet fast.
+constexpr int kMostParts = 256;
 
 }  // namespace
 
@@ -68,7 +67,6 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
     size_ = step.size;
     StageTimer* const timer = this->timer_.for_parts();
     const auto size = static_cast<Real>(step.size);
-    const int parts = !divides_steps_ ? 1 : step_.any_near() && !step_.is_calm() ? kPartsNear : kPartsFar;
     // Held nodes go from where they are to where their handles have them at the end.
     goals_.resize(current_.positions.size());
     for (std::size_t n = 0; n < goals_.size(); ++n)
@@ -76,9 +74,10 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
             goals_[n] = Vec3<Real>(current_.positions[n]) + size * Vec3<Real>(current_.velocities[n]);
     if (rests(step)) return;
     const std::vector<Vec4<Real>> velocities = current_.velocities;
-    const Real part = size / static_cast<Real>(parts), shortest = size / static_cast<Real>(kMostParts);
-    StepInput<Real> input{part, load_forces_, this->acting_pulls(), rest_watch_ ? &*rest_watch_ : nullptr};
-    if (std::exchange(goes_on_, false)) step_.go_on(current_, previous_.velocities, part);
+    const Real shortest = size / static_cast<Real>(kMostParts);
+    StepInput<Real> input{size, divides_steps_ ? size : Real(0), load_forces_, this->acting_pulls(),
+                          rest_watch_ ? &*rest_watch_ : nullptr};
+    if (std::exchange(goes_on_, false)) step_.go_on(current_, previous_.velocities, size);
     to_ = current_;
     if (rest_watch_) rest_watch_->hold(to_);
     for (Real left = size; left > Real(0.5) * shortest; left -= input.step) {
@@ -91,7 +90,7 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
         from_ = to_;
         if (!shape_matcher_.run(to_).empty() && step_.follow(from_, to_)) from_ = to_;
         this->sum_loads(step, from_);
-        input.step = left > Real(0.99) * part ? part : left;  // equal ones, but for rounding
+        input.step = left;
         input.step = step_.run(input, shortest, from_, to_, timer);
     }
     if (!model_->handles.empty() && model_->is_body(model_->handles[0].object))

@@ -1,5 +1,6 @@
 #include "cpu/implicit/time_scheme.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -9,8 +10,9 @@
 namespace gelatin::cpu {
 namespace {
 
-// BDF2 is stable for steps up to 2.4 times as long as the last one.
-constexpr double kLongest = 2.2;
+// What is left of fast vibrations in a step, with their sign reversed: (1 - alpha) / (1 + alpha). Slow ones
+// are damped by less the nearer it is to 1.
+constexpr double kLeftOfFast = 0.7;
 
 }  // namespace
 
@@ -20,76 +22,99 @@ TimeScheme<Real>::TimeScheme(std::shared_ptr<const Model> model)
       object_of_(objects_of_nodes(*model_)),
       schemes_(model_->objects.size()),
       momenta_(model_->body_count()),
-      earlier_momenta_(model_->body_count()) {}
+      rates_(model_->body_count()) {
+    for (const ModelObject& body : model_->bodies()) {
+        double volume = 0.0, stiffness = 0.0;  // of bulk moduli, times volumes [J]
+        for (std::uint32_t t = body.tets.first; t < body.tets.end(); ++t) {
+            const TetRest& rest = model_->tet_rests[t];
+            volume += static_cast<double>(rest.volume);
+            stiffness += static_cast<double>(rest.volume) * static_cast<double>(rest.bulk);
+        }
+        wave_times_.push_back(static_cast<Real>(std::cbrt(volume) * std::sqrt(body.mass / stiffness)));
+    }
+}
 
 template <class Real>
 void TimeScheme<Real>::archive(Archive& archive) {
     archive.value(last_step_);
-    archive.list(earlier_velocities_);
-    archive.array(momenta_);
-    if (last_step_ > Real(0) && earlier_velocities_.size() != model_->node_count()) archive.fail();
+    archive.list(accelerations_);
+    archive.array(rates_);
+    if (has_past() && accelerations_.size() != model_->node_count()) archive.fail();
 }
 
 template <class Real>
 void TimeScheme<Real>::go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real>> earlier_velocities,
                              Real step) {
-    earlier_velocities_.assign(earlier_velocities.begin(), earlier_velocities.end());
-    last_step_ = step;
-    std::vector<Vec4<Real>> earlier = nodes.positions;
-    for (std::size_t n = 0; n < earlier.size(); ++n) earlier[n] -= Vec4<Real>(went(nodes, n), 0);
-    for (std::size_t o = 0; o < momenta_.size(); ++o) momenta_[o] = momenta(o, earlier, earlier_velocities);
+    begin({nodes.positions, {earlier_velocities.begin(), earlier_velocities.end()}});
+    for (std::size_t o = 0; o < schemes_.size(); ++o) set(o, step, Real(0));
+    end({nodes.positions, {earlier_velocities.begin(), earlier_velocities.end()}}, nodes);
 }
 
 template <class Real>
 void TimeScheme<Real>::begin(const Nodes<Real>& previous) {
-    earlier_momenta_ = momenta_;
     for (std::size_t o = 0; o < momenta_.size(); ++o)
         momenta_[o] = momenta(o, previous.positions, previous.velocities);
 }
 
+// Accelerations are those that velocities have changed by, whatever did it.
 template <class Real>
-void TimeScheme<Real>::end(const Nodes<Real>& previous, Real step) {
-    earlier_velocities_ = previous.velocities;
-    last_step_ = step;
+void TimeScheme<Real>::end(const Nodes<Real>& previous, const Nodes<Real>& current) {
+    accelerations_.resize(current.positions.size(), Vec3<Real>(0));
+    for_each_index(accelerations_.size(), [&](std::size_t n) {
+        const Scheme& s = schemes_[object_of_[n]];
+        const Vec3<Real> change(current.velocities[n] - previous.velocities[n]),
+            before = s.past * (Real(1) - s.gamma) * accelerations_[n];
+        accelerations_[n] = (change / s.length - before) / s.gamma;
+    });
+    for (std::size_t o = 0; o < momenta_.size(); ++o) {
+        const Scheme& s = schemes_[o];
+        const Momenta now = momenta(o, current.positions, current.velocities), before = rates_[o];
+        const auto rate = [&](glm::dvec3 Momenta::*part) {
+            return ((now.*part - momenta_[o].*part) / static_cast<double>(s.length) -
+                    static_cast<double>(s.past * (Real(1) - s.gamma)) * (before.*part)) /
+                   static_cast<double>(s.gamma);
+        };
+        rates_[o] = {rate(&Momenta::linear), rate(&Momenta::angular)};
+    }
+    last_step_ = schemes_[0].length;
 }
 
 template <class Real>
-bool TimeScheme<Real>::can_go_on(Real step) const {
-    return last_step_ > Real(0) && step < static_cast<Real>(kLongest) * last_step_;
+void TimeScheme<Real>::set(std::size_t object, Real step, Real damping) {
+    schemes_[object] = {.length = step, .step = step, .damping = damping};
 }
 
 template <class Real>
-void TimeScheme<Real>::set(std::size_t object, Real step, bool goes_on, Real damping) {
-    const Real ratio = goes_on ? step / last_step_ : Real(0);
-    schemes_[object] = {ratio * ratio / (Real(1) + Real(2) * ratio),
-                        step * (Real(1) + ratio) / (Real(1) + Real(2) * ratio), damping};
-}
-
-// s
-template <class Real>
-Vec3<Real> TimeScheme<Real>::went(const Nodes<Real>& previous, std::size_t node) const {
-    return Real(0.5) * last_step_ *
-           (Vec3<Real>(previous.velocities[node]) + Vec3<Real>(earlier_velocities_[node]));
+void TimeScheme<Real>::set_second_order(std::size_t object, Real step) {
+    constexpr auto alpha = static_cast<Real>((1.0 - kLeftOfFast) / (1.0 + kLeftOfFast));
+    schemes_[object] = {.length = step,
+                        .step = Real(0.5) * step * std::sqrt(Real(1) + alpha),
+                        .past = Real(1),
+                        .alpha = alpha,
+                        .beta = Real(0.25) * (Real(1) + alpha) * (Real(1) + alpha),
+                        .gamma = Real(0.5) + alpha};
 }
 
 template <class Real>
 Vec3<Real> TimeScheme<Real>::target(const Nodes<Real>& previous, std::size_t node,
                                     const Vec3<Real>& acceleration) const {
-    const auto& [past, h, damping] = schemes_[object_of_[node]];
-    const Vec3<Real> v(previous.velocities[node]);
-    Vec3<Real> target = h * v + h * h * acceleration;
-    if (past > Real(0))
-        target += past * (went(previous, node) + h * (v - Vec3<Real>(earlier_velocities_[node])));
-    return target;
+    const Scheme& s = schemes_[object_of_[node]];
+    const Vec3<Real> target =
+        s.length * Vec3<Real>(previous.velocities[node]) + s.step * s.step * acceleration;
+    return s.past > Real(0)
+               ? target + Real(0.25) * (Real(1) - s.alpha) * s.length * s.length * accelerations_[node]
+               : target;
 }
 
 template <class Real>
 Vec3<Real> TimeScheme<Real>::velocity(const Nodes<Real>& previous, std::size_t node,
                                       const Vec3<Real>& displacement) const {
-    const auto& [past, h, damping] = schemes_[object_of_[node]];
-    Vec3<Real> velocity = displacement / h;
-    if (past > Real(0)) velocity -= past / h * went(previous, node);
-    return velocity;
+    const Scheme& s = schemes_[object_of_[node]];
+    const Real h = s.length;
+    if (s.past == Real(0)) return displacement / h;
+    const Vec3<Real> v(previous.velocities[node]), before = accelerations_[node];
+    const Vec3<Real> now = (displacement - h * v - (Real(0.5) - s.beta) * h * h * before) / (s.beta * h * h);
+    return v + h * ((Real(1) - s.gamma) * before + s.gamma * now);
 }
 
 // As steps have it, in which a node is what its inverse mass says; of held nodes, which have none, too: their
@@ -131,13 +156,16 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
             sums.add(glm::dvec3(current.positions[n]) - origin, mass_of(n, current.positions[n]),
                      glm::dvec3(forces[n]));
         const RigidInertia inertia(sums);
-        const auto h = static_cast<double>(schemes_[o].step), past = static_cast<double>(schemes_[o].past);
-        const Momenta change{sums.force + glm::dvec3(model_->gravity) / inertia.inverse_mass,
-                             sums.moment - glm::cross(inertia.center, sums.force)};
-        const Momenta &had = momenta_[o], &earlier = earlier_momenta_[o];
+        const Scheme& s = schemes_[o];
+        const auto h = static_cast<double>(s.length), past = static_cast<double>(s.past),
+                   alpha = static_cast<double>(s.alpha), gamma = static_cast<double>(s.gamma);
+        const Momenta forces_now{sums.force + glm::dvec3(model_->gravity) / inertia.inverse_mass,
+                                 sums.moment - glm::cross(inertia.center, sums.force)};
+        const Momenta &had = momenta_[o], &before = rates_[o];
         const Momenta has = momenta(o, current.positions, current.velocities);
         const auto lacking = [&](glm::dvec3 Momenta::*part) {
-            return had.*part + past * (had.*part - earlier.*part) + h * change.*part - has.*part;
+            const glm::dvec3 now = (forces_now.*part + past * alpha * before.*part) / (1.0 + alpha);
+            return had.*part + h * (past * (1.0 - gamma) * before.*part + gamma * now) - has.*part;
         };
         const Twist missing{inertia.inverse_mass * lacking(&Momenta::linear),
                             inertia.inverse_inertia * lacking(&Momenta::angular)};

@@ -13,18 +13,21 @@
 
 namespace gelatin::cpu {
 
-/// How nodes go on from the step before. BDF2 for steps of any length: with v_1 one step before, whose length
-/// was h_1, and w = h / h_1,
-///   y = x + c s + h' (v + c (v - v_1) + h' g),  c = w^2 / (1 + 2 w),  h' = h (1 + w) / (1 + 2 w).
-/// Implicit Euler's scheme is that of w = 0. Then m / h'^2 (x' - y) is what inertia resists with. For s = x -
-/// x_1 stands h_1 (v + v_1) / 2, which needs no positions of earlier steps, and of a node that was stopped
-/// none.
+/// How nodes go on from the step before: Newmark's method with weighted inertia (Wood, Bossak and Zienkiewicz
+/// 1980). With a_0 the acceleration at the step's start,
+///   x' = x + h v + h^2 ((1/2 - beta) a_0 + beta a'),  v' = v + h ((1 - gamma) a_0 + gamma a'),
+///   m ((1 + alpha) a' - alpha a_0) = f' + m g,  beta = (1 + alpha)^2 / 4,  gamma = 1/2 + alpha,
+/// so m / h'^2 (x' - y) is what inertia resists with, for
+///   y = x + h v + h'^2 g + (1 - alpha) / 4 h^2 a_0,  h'^2 = (1 + alpha) / 4 h^2.
+/// Implicit Euler's scheme is that of beta = gamma = 1 and alpha = 0, without a_0, in which h' = h.
 template <class Real>
 class TimeScheme {
 public:
     struct Scheme {
-        Real past = 0, step = 0;  ///< c, h' [s]
-        Real damping = 0;         ///< the least damping time [s]
+        Real length = 0, step = 0;  ///< h, h' [s]
+        Real past = 0;              ///< what a_0 counts by: 1, or 0 with Euler's scheme
+        Real alpha = 0, beta = 1, gamma = 1;
+        Real damping = 0;  ///< the least damping time [s]
     };
 
     explicit TimeScheme(std::shared_ptr<const Model> model);
@@ -32,16 +35,20 @@ public:
     /// Nodes were set from outside.
     void forget() { last_step_ = Real(0); }
     void archive(Archive& archive);
-    /// After it. @param nodes where the next step begins @param earlier_velocities v_1 and step h_1 of the
-    /// last one
+    /// After it. @param nodes where the next step begins @param earlier_velocities a step before, whose
+    /// length was so much [s]
     void go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real>> earlier_velocities, Real step);
 
     /// A step begins.
     void begin(const Nodes<Real>& previous);
-    /// Whether BDF2 is stable in a step of this length [s].
-    bool can_go_on(Real step) const;
-    /// Chooses that of an object, for a step of this length. @param goes_on by BDF2
-    void set(std::size_t object, Real step, bool goes_on, Real damping);
+    /// Whether a step can follow how a body deforms in an impact: a pressure wave takes longer to pass
+    /// through it.
+    bool resolves(std::size_t body, Real step) const { return wave_times_[body] > step; }
+    bool has_past() const { return last_step_ > Real(0); }  ///< whether there is an a_0
+    /// Euler's for an object, for a step of this length. @param damping the least damping time [s]
+    void set(std::size_t object, Real step, Real damping);
+    /// Or the other.
+    void set_second_order(std::size_t object, Real step);
     const Scheme& of(std::size_t object) const { return schemes_[object]; }
     /// y - x of a node [m]. @param acceleration g [m/s^2]
     Vec3<Real> target(const Nodes<Real>& previous, std::size_t node, const Vec3<Real>& acceleration) const;
@@ -52,26 +59,26 @@ public:
     void keep_momenta(const RigidLevel<Real>& rigid, std::span<const Vec3<Real>> forces,
                       Nodes<Real>& current) const;
     /// It was made.
-    void end(const Nodes<Real>& previous, Real step);
+    void end(const Nodes<Real>& previous, const Nodes<Real>& current);
 
-    Real last_step() const { return last_step_; }  ///< h_1, 0: there is none [s]
+    Real last_step() const { return last_step_; }  ///< its length, 0: there is none [s]
 
 private:
     // [kg m/s]; about the centre of mass [kg m^2/s].
     struct Momenta {
         glm::dvec3 linear{0.0}, angular{0.0};
     };
-    Vec3<Real> went(const Nodes<Real>& previous, std::size_t node) const;
     double mass_of(std::size_t node, const Vec4<Real>& position) const;
     Momenta momenta(std::size_t body, std::span<const Vec4<Real>> positions,
                     std::span<const Vec4<Real>> velocities) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> object_of_;  // by node
+    std::vector<Real> wave_times_;          // by body [s]
     std::vector<Scheme> schemes_;           // by object
     Real last_step_ = 0;
-    std::vector<Vec4<Real>> earlier_velocities_;      // v_1
-    std::vector<Momenta> momenta_, earlier_momenta_;  // of bodies, when this step and the last one began
+    std::vector<Vec3<Real>> accelerations_;  // a_0 [m/s^2]
+    std::vector<Momenta> momenta_, rates_;   // of bodies, when the step began; and what they changed by then
 };
 
 }  // namespace gelatin::cpu

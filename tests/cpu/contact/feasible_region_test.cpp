@@ -144,7 +144,7 @@ TEST(FeasibleRegion, NodesPressAwayFromTheirSurface) {
     for (const double up : {1.0, -1.0}) {
         EXPECT_EQ(sheet.weight_of_node(inside, {0.0, 0.0, 0.3 * up}), 1.0);
         EXPECT_EQ(sheet.weight_of_node(inside, {0.01, 0.0, 0.3 * up}), 1.0);
-        EXPECT_NEAR(sheet.weight_of_node(inside, {0.025, 0.0, 0.3 * up}), 0.34, 0.1);
+        EXPECT_NEAR(sheet.weight_of_node(inside, {0.02, 0.0, 0.3 * up}), 0.34, 0.1);
         EXPECT_EQ(sheet.weight_of_node(inside, {0.1, 0.0, 0.3 * up}), 0.0);
     }
     const Surfaces cube({make_box({glm::dvec3(2), glm::ivec3(1)})});
@@ -198,7 +198,7 @@ TEST(FeasibleRegion, RidgesPressAndValleysDoNot) {
     for (double slope = -0.3; slope < 0.31; slope += 0.02) {  // [rad]; positive: a ridge
         const glm::dvec3 left(0, -std::cos(slope), -std::sin(slope)), right(0, std::cos(slope), left.z);
         EXPECT_NEAR(weight_between({left, right}, {0, 0, 1}),
-                    std::clamp(0.5 + 10.0 * std::sin(slope), 0.0, 1.0), 1e-6)
+                    std::clamp(0.5 + 12.5 * std::sin(slope), 0.0, 1.0), 1e-6)
             << slope;
     }
 }
@@ -208,7 +208,7 @@ TEST(FeasibleRegion, CubeEdgesPressBetweenTheirFacesNormals) {
         const glm::dvec3 direction(0, std::cos(angle), std::sin(angle));
         const double least = std::min(direction.y, direction.z);  // minus the greater cosine
         EXPECT_NEAR(weight_between({{0, -1, 0}, {0, 0, -1}}, direction),
-                    std::clamp(0.5 + 10.0 * least, 0.0, 1.0), 1e-6)
+                    std::clamp(0.5 + 12.5 * least, 0.0, 1.0), 1e-6)
             << angle;
     }
 }
@@ -216,7 +216,7 @@ TEST(FeasibleRegion, CubeEdgesPressBetweenTheirFacesNormals) {
 TEST(FeasibleRegion, BordersPressAwayFromTheirFace) {
     for (double angle = -3.1; angle < 3.1; angle += 0.1) {
         const glm::dvec3 direction(0, std::cos(angle), std::sin(angle));
-        EXPECT_NEAR(weight_between({{0, -1, 0}}, direction), std::clamp(0.5 + 10.0 * direction.y, 0.0, 1.0),
+        EXPECT_NEAR(weight_between({{0, -1, 0}}, direction), std::clamp(0.5 + 12.5 * direction.y, 0.0, 1.0),
                     1e-6)
             << angle;
     }

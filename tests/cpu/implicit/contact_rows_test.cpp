@@ -28,7 +28,8 @@ protected:
         std::vector<glm::dvec4> positions(model_->positions.begin(), model_->positions.end());
         for (glm::dvec4& p : positions) p.y = p.y > 0.05 ? 0.3 : p.x < 0.15 ? 0.0001 : height;
         std::vector<cpu::ContactRow<double>> rows;
-        rows_of_->make({positions, expected_, compliances_, kStep, kStep}, {}, rows);
+        const std::vector<double> slacks(1, 1e-3);
+        rows_of_->make({positions, expected_, compliances_, slacks, kStep, kStep}, {}, rows);
         rows_of_->note(rows, expected_, std::vector<std::uint8_t>(1));
         rows_of_->remember();
         return rows;
@@ -85,7 +86,7 @@ TEST(ContactRows, HeldNodesMakeNoneStiffer) {
     const auto stiffest = [&](const std::vector<double>& compliances) {
         std::vector<cpu::ContactRow<double>> rows;
         cpu::ContactRows<double>(model, surface)
-            .make({positions, expected, compliances, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(), rows);
+            .make({positions, expected, compliances, slacks, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(), rows);
         double most = 0.0;
         for (const auto& row : rows) most = std::max(most, row.stiffness);
         return most;

@@ -96,28 +96,38 @@ TEST(SystemSolver, KeepsMomentum) {
     }
 }
 
-// A state has all that the next step needs, but for rounding: with implicit Euler's scheme a block that
-// vibrates would be elsewhere.
+// How far a solver that goes on from a state is from one that was not stopped [m].
+float goes_astray(bool is_pinned, bool has_memory, bool has_earlier_velocities) {
+    Block block{.velocity = {1, 2, 0}};
+    if (is_pinned) block.pins = {HalfSpaceRegion{{1, 0, 0}, 0.05}};
+    auto moving = std::make_shared<Model>(*make_blocks({block}));
+    for (std::uint32_t n = 0; n < moving->node_count(); ++n)
+        if (moving->positions[n].w != 0.0f)
+            moving->velocities[n].x += 3.0f * moving->positions[n].y * moving->positions[n].y;
+    const std::shared_ptr<const Model> model = moving;
+    cpu::SystemSolver<float> solver = make_system_solver<float>(model),
+                             other = make_system_solver<float>(model);
+    for (int frame = 0; frame < 3; ++frame) solver.advance({kFrame});
+    State state = solver.read_state();
+    if (has_memory) state.memory = solver.memory();
+    if (!has_earlier_velocities) state.earlier_velocities.clear();
+    other.write_state(state);
+    for (cpu::SystemSolver<float>* each : {&solver, &other})
+        for (int frame = 0; frame < 3; ++frame) each->advance({kFrame});
+    float farthest = 0.0f;
+    for (std::size_t n = 0; n < model->node_count(); ++n)
+        farthest = std::max(farthest, glm::distance(glm::vec3(solver.nodes().positions[n]),
+                                                    glm::vec3(other.nodes().positions[n])));
+    return farthest;
+}
+
+// With a memory exactly. Without, accelerations are those of the last step's change of velocities; without
+// these implicit Euler's scheme comes first.
 TEST(SystemSolver, GoesOnFromAState) {
     for (const bool is_pinned : {false, true}) {
-        Block block{.velocity = {1, 2, 0}};
-        if (is_pinned) block.pins = {HalfSpaceRegion{{1, 0, 0}, 0.05}};
-        auto moving = std::make_shared<Model>(*make_blocks({block}));
-        for (std::uint32_t n = 0; n < moving->node_count(); ++n)
-            if (moving->positions[n].w != 0.0f)
-                moving->velocities[n].x += 3.0f * moving->positions[n].y * moving->positions[n].y;
-        const std::shared_ptr<const Model> model = moving;
-        cpu::SystemSolver<float> solver = make_system_solver<float>(model),
-                                 other = make_system_solver<float>(model);
-        for (int frame = 0; frame < 3; ++frame) solver.advance({kFrame});
-        other.write_state(solver.read_state());
-        for (cpu::SystemSolver<float>* each : {&solver, &other})
-            for (int frame = 0; frame < 3; ++frame) each->advance({kFrame});
-        for (std::size_t n = 0; n < model->node_count(); ++n)
-            EXPECT_LT(
-                glm::distance(glm::vec3(solver.nodes().positions[n]), glm::vec3(other.nodes().positions[n])),
-                1e-6f)
-                << is_pinned;
+        EXPECT_EQ(goes_astray(is_pinned, true, true), 0.0f) << is_pinned;
+        EXPECT_LT(goes_astray(is_pinned, false, true), 0.3f * goes_astray(is_pinned, false, false))
+            << is_pinned;
     }
 }
 
@@ -336,7 +346,7 @@ TEST(SystemSolver, SpinsOn) {
     EXPECT_LT(after.kinetic + after.elastic, 1.002 * before);
 }
 
-// By linear steps alone BDF2 gains tets energy that turn fast, a little in each step and tenfold in half a
+// By linear steps alone tets gain energy that turn fast, a little in each step and tenfold in half a
 // minute.
 TEST(SystemSolver, SpinsOnForLong) {
     Scene scene;
