@@ -20,7 +20,7 @@ constexpr double kStiffestStep = 1.0 / 60.0;
 // hardly.
 constexpr std::array<std::uint32_t, 3> kParts{4, 2, 1};
 // Nodes may end this far from where they are expected: this part of the thickness, and of the longest
-// displacement.
+// displacement, if that is no more than kFastest thicknesses.
 constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
 // Detections of a step for its guard alone, at most.
 constexpr int kMostGuards = 10;
@@ -223,26 +223,26 @@ bool ImplicitStep<Real>::is_asleep(const ContactRow<Real>& row) const {
 }
 
 // Whether nodes of a body with self-contact go farther beside it than pairs could be found for: it was hit
-// faster than the step can resolve. @param limits whether they then go less far instead
+// faster than the step can resolve. @param limits whether they go less far instead: what a step of the
+// shortest length finds for them means nothing
 template <class Real>
 bool ImplicitStep<Real>::is_torn(bool limits) {
     std::atomic<bool> is_torn = false;
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
-        const std::span<Vec3<Real>> moved(&system_.displacements[nodes.first], nodes.count);
+        const std::span<const Vec3<Real>> moved(&system_.displacements[nodes.first], nodes.count);
         const Vec3<Real> mean =
             std::accumulate(moved.begin(), moved.end(), Vec3<Real>(0)) / static_cast<Real>(nodes.count);
-        Real squared = 0;
-        for (const Vec3<Real>& d : moved) squared = std::max(squared, glm::dot(d - mean, d - mean));
-        const Real most = static_cast<Real>(2.0 * kFastest * surface_->reach(o, o)),
-                   found = std::sqrt(squared);
-        if (!(found > most)) return;
-        if (!limits) is_torn = true;
-        for (std::uint32_t n = nodes.first; limits && n < nodes.end(); ++n)
-            if (system_.inertia[n] > Real(0))
-                system_.displacements[n] = mean + most / found * (system_.displacements[n] - mean);
+        const auto most = static_cast<Real>((limits ? kDeepest : 2.0 * kFastest) * surface_->reach(o, o));
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            Vec3<Real>& d = system_.displacements[n];
+            const Real found = glm::distance(d, mean);
+            if (found <= most || system_.inertia[n] == Real(0)) continue;
+            is_torn = true;
+            if (limits) d = mean + most / found * (d - mean);
+        }
     });
-    return is_torn;
+    return is_torn && !limits;
 }
 
 // What was let go or taken hold of since the last step does not go on with what moved it then.
@@ -484,8 +484,10 @@ bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest, b
         Real squared = 0;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             squared = std::max(squared, glm::dot(expected_[n], expected_[n]));
-        slacks_[o] = static_cast<Real>(kSlackOfThickness * surface_->thicknesses[o]) +
-                     static_cast<Real>(kSlackOfMotion) * std::sqrt(squared);
+        const auto thickness = static_cast<Real>(surface_->thicknesses[o]);
+        slacks_[o] = static_cast<Real>(kSlackOfThickness) * thickness +
+                     static_cast<Real>(kSlackOfMotion) *
+                         std::min(std::sqrt(squared), static_cast<Real>(kFastest) * thickness);
     });
     if (!contacts_) return true;
     const Paths<Real> paths{previous.positions, ends_, slacks_};
