@@ -31,7 +31,7 @@ constexpr double kRestingFall = 1.0 / 60.0, kRestingTime = 0.1;
 constexpr double kBouncingFall = 1.0 / 30.0;
 // Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
 // part of their share of the island's energy; and in one step by what rounding makes of so many positions.
-constexpr double kAtRest = 0.001, kInIsland = 0.1, kRoundings = 8.0;
+constexpr double kAtRest = 0.001, kInIsland = 0.1, kRoundings = 2.0;
 // A step that gains an island of bodies this part of its energy was too long for its linearisation, and is
 // made shorter.
 constexpr double kMostGain = 0.05;
@@ -139,7 +139,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             const TimedStage part(timer, "advance_nodes.linearise");
             islands_.find<Real>(*model_, system_.rows, previous,
                                 !input.load_forces.empty() || input.pulls != nullptr);
-            has_past = choose_schemes(damps);
+            has_past = choose_schemes(damps || is_shortest);
             find_targets(input, previous);
             linearise(input, previous);
         }
@@ -334,7 +334,7 @@ Vec3<Real> ImplicitStep<Real>::acceleration(const StepInput<Real>& input, const 
 // Euler's, and those that are still with dampers, too. So do bodies that restitution has struck, for a step;
 // and islands that touch something, and of which the step resolves none: what stops within a step would leave
 // with any speed.
-// @return whether any body goes on by another
+// @param damps whether all do @return whether any body goes on by another
 template <class Real>
 bool ImplicitStep<Real>::choose_schemes(bool damps) {
     std::vector<Pace> paces(model_->body_count(), Pace::still);

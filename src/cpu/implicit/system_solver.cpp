@@ -80,6 +80,8 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
     if (std::exchange(goes_on_, false)) step_.go_on(current_, previous_.velocities, size);
     to_ = current_;
     if (rest_watch_) rest_watch_->hold(to_);
+    Real longest =
+        size;  // twice the last part, so that those that are divided do not begin with all that is left
     for (Real left = size; left > Real(0.5) * shortest; left -= input.step) {
         for (std::size_t n = 0; n < goals_.size(); ++n) {
             if (current_.positions[n].w != Real(0)) continue;
@@ -90,8 +92,9 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
         from_ = to_;
         if (!shape_matcher_.run(to_).empty() && step_.follow(from_, to_)) from_ = to_;
         this->sum_loads(step, from_);
-        input.step = left;
+        input.step = std::min(left, longest);
         input.step = step_.run(input, shortest, from_, to_, timer);
+        longest = Real(2) * input.step;
     }
     if (!model_->handles.empty() && model_->is_body(model_->handles[0].object))
         step_.find_forces_on_held(input, from_, forces_on_held_);

@@ -131,6 +131,24 @@ TEST(SystemSolver, GoesOnFromAState) {
     }
 }
 
+// However short parts are, elements count: in each, they exert less than what a solve may leave.
+TEST(SystemSolver, ShortStepsVibrateLikeLongerOnes) {
+    auto moving = std::make_shared<Model>(*make_blocks({{.youngs_modulus = 3e4}}));
+    for (std::uint32_t n = 0; n < moving->node_count(); ++n)
+        moving->velocities[n].x = 3.0f * (moving->positions[n].y - 0.15f);
+    const std::shared_ptr<const Model> model = moving;
+    const auto places = [&](int substeps) {
+        cpu::SystemSolver<double> solver = make_system_solver<double>(model, 0.4, false);
+        for (int step = 0; step < 3 * substeps; ++step) solver.advance({kFrame / substeps});
+        return solver.nodes().positions;
+    };
+    const std::vector<glm::dvec4> longer = places(32), shorter = places(512);
+    double farthest = 0.0;
+    for (std::size_t n = 0; n < longer.size(); ++n)
+        farthest = std::max(farthest, glm::distance(glm::dvec3(longer[n]), glm::dvec3(shorter[n])));
+    EXPECT_LT(farthest, 2e-4);
+}
+
 // A block flies on as its handle has taken it.
 TEST(SystemSolver, FliesOnWhenItIsReleased) {
     Scene scene;
