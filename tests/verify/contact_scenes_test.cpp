@@ -236,7 +236,7 @@ TEST(ContactScenesHeavy, LettersFallOnEachOther) {
 
 TEST(ContactScenesHeavy, DropsRainOnEachOther) {
     ContactScene scene("rain.toml", Backend::cpu, {"object.drop.copies.counts=[3, 4, 3]"});
-    scene.advance_to(240);
+    scene.advance_to(300);
     EXPECT_LT(scene.fastest(), 3.0);
 }
 
