@@ -215,7 +215,7 @@ int StepSystem<Real>::conjugate_gradients(int count, double forcing) {
         add_row_forces([&](std::size_t r) { return tangents_[r].stiffness * relative<Real>(rows[r], p_); },
                        with_rows_);
         const double curvature = dot(p_, with_rows_);
-        if (!(curvature > 0.0)) return 0;
+        if (!(curvature > 0.0)) return k;
         const auto a = static_cast<Real>(rz / curvature);
         awake_.for_each([&](std::uint32_t n) {
             direction_[n] += a * p_[n];

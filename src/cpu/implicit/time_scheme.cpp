@@ -52,8 +52,8 @@ void TimeScheme<Real>::go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real
 
 template <class Real>
 void TimeScheme<Real>::begin(const Nodes<Real>& previous) {
-    for (std::size_t o = 0; o < momenta_.size(); ++o)
-        momenta_[o] = momenta(o, previous.positions, previous.velocities);
+    for_each_index(0, momenta_.size(), 1,
+                   [&](std::size_t o) { momenta_[o] = momenta(o, previous.positions, previous.velocities); });
 }
 
 // Accelerations are those that velocities have changed by, whatever did it.
@@ -66,7 +66,7 @@ void TimeScheme<Real>::end(const Nodes<Real>& previous, const Nodes<Real>& curre
             before = s.past * (Real(1) - s.gamma) * accelerations_[n];
         accelerations_[n] = (change / s.length - before) / s.gamma;
     });
-    for (std::size_t o = 0; o < momenta_.size(); ++o) {
+    for_each_index(0, momenta_.size(), 1, [&](std::size_t o) {
         const Scheme& s = schemes_[o];
         const Momenta now = momenta(o, current.positions, current.velocities), before = rates_[o];
         const auto rate = [&](glm::dvec3 Momenta::*part) {
@@ -75,7 +75,7 @@ void TimeScheme<Real>::end(const Nodes<Real>& previous, const Nodes<Real>& curre
                    static_cast<double>(s.gamma);
         };
         rates_[o] = {rate(&Momenta::linear), rate(&Momenta::angular)};
-    }
+    });
     last_step_ = schemes_[0].length;
 }
 

@@ -24,10 +24,10 @@ template <class Real>
 class TimeScheme {
 public:
     struct Scheme {
-        Real length = 0, step = 0;  ///< h, h' [s]
-        Real past = 0;              ///< what a_0 counts by: 1, or 0 with Euler's scheme
-        Real alpha = 0, beta = 1, gamma = 1;
-        Real damping = 0;  ///< the least damping time [s]
+        Real length = 0, step = 0;            ///< h, h' [s]
+        Real past = 0;                        ///< what a_0 counts by: 1, or 0 with Euler's scheme
+        Real alpha = 0, beta = 1, gamma = 1;  ///< as above
+        Real damping = 0;                     ///< the least damping time [s]
     };
 
     explicit TimeScheme(std::shared_ptr<const Model> model);
@@ -78,7 +78,7 @@ private:
     std::vector<Scheme> schemes_;           // by object
     Real last_step_ = 0;
     std::vector<Vec3<Real>> accelerations_;  // a_0 [m/s^2]
-    std::vector<Momenta> momenta_, rates_;   // of bodies, when the step began; and what they changed by then
+    std::vector<Momenta> momenta_, rates_;   // of bodies when the step began, and how fast they changed
 };
 
 }  // namespace gelatin::cpu
