@@ -86,7 +86,7 @@ void TimeScheme<Real>::set(std::size_t object, Real step, Real damping) {
 
 template <class Real>
 void TimeScheme<Real>::set_second_order(std::size_t object, Real step) {
-    constexpr auto alpha = static_cast<Real>((1.0 - kLeftOfFast) / (1.0 + kLeftOfFast));
+    const auto alpha = static_cast<Real>((1.0 - kLeftOfFast) / (1.0 + kLeftOfFast));
     schemes_[object] = {.length = step,
                         .step = Real(0.5) * step * std::sqrt(Real(1) + alpha),
                         .past = Real(1),
