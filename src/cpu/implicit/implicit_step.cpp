@@ -169,7 +169,11 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             continue;
         }
         const TimedStage part(timer, "advance_nodes.guard");
-        if (guard(previous, current)) gained = gain();
+        const std::vector<Vec4<Real>> wanted_ends = current.positions;
+        if (guard(previous, current)) {
+            if (is_shortest) stop_guarded(wanted_ends, current);
+            gained = gain();
+        }
         if (!is_shortest && gained > kMostGain) {
             divide();
             continue;
@@ -531,6 +535,32 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
     });
     return true;
+}
+
+// In the shortest part nodes are no faster than they went: else they press on what stopped them in each part
+// after it, and their energy goes into elements without end. Islands that nothing holds keep their momentum
+// and angular momentum.
+template <class Real>
+void ImplicitStep<Real>::stop_guarded(std::span<const Vec4<Real>> wanted, Nodes<Real>& current) const {
+    std::vector<RigidSums> sums(model_->body_count());  // by island, with momenta for forces
+    for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
+        const Vec4<Real> x = current.positions[n];
+        if (x.w == Real(0)) continue;
+        const Vec3<Real> change = (Vec3<Real>(x) - Vec3<Real>(wanted[n])) / step_;
+        current.velocities[n] += Vec4<Real>(change, 0);
+        const double mass = 1.0 / static_cast<double>(x.w);
+        sums[islands_.of_bodies[object_of_[n]]].add(glm::dvec3(x), mass, mass * glm::dvec3(change));
+    }
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        const std::uint32_t island = islands_.of_bodies[o];
+        if (islands_.are_held[island] != 0) continue;
+        const RigidInertia inertia(sums[island]);
+        const Twist lost = inertia.twist(sums[island].force, sums[island].moment);
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            current.velocities[n] -=
+                Vec4<Real>(Vec3<Real>(lost.at(glm::dvec3(current.positions[n]) - inertia.center)), 0);
+    }
 }
 
 // Rotations that linear systems have found become true ones. And momentum and angular momentum of free
