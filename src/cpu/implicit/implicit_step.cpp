@@ -1,7 +1,6 @@
 #include "cpu/implicit/implicit_step.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -16,17 +15,11 @@ namespace {
 
 // In shorter steps contacts are no stiffer than in one of this length: else impacts give nothing back [s].
 constexpr double kStiffestStep = 1.0 / 60.0;
-// Into how many parts a step is divided at least, by how bodies near others move: all, along each other,
-// hardly.
-constexpr std::array<std::uint32_t, 3> kParts{4, 2, 1};
 // Nodes may end this far from where they are expected: this part of the thickness, and of the longest
 // displacement, if that is no more than kFastest thicknesses.
 constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
 // Detections of a step for its guard alone, at most.
 constexpr int kMostGuards = 10;
-// Bodies come to rest that vibrate, and go to and fro, more slowly than after so long a fall [s]. Elements
-// and contacts of those that move no faster in all have at least this damping time [s].
-constexpr double kRestingFall = 1.0 / 60.0, kRestingTime = 0.1;
 // What meets more slowly than after so long a fall does not bounce [s].
 constexpr double kBouncingFall = 1.0 / 30.0;
 // Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
@@ -59,9 +52,8 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       energy_(model_),
       system_(model_),
       scheme_(model_),
-      paces_(model_->body_count()),
+      paces_(model_),
       asleep_(model_->body_count()),
-      is_struck_(model_->body_count()),
       held_counts_(model_->body_count()),
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
@@ -83,16 +75,14 @@ void ImplicitStep<Real>::forget() {
     parts_ = 1;
     scheme_.forget();
     restitution_.forget();
-    std::fill(paces_.begin(), paces_.end(), Pace::moving);
-    std::fill(is_struck_.begin(), is_struck_.end(), std::uint8_t(0));
+    paces_.forget();
 }
 
 template <class Real>
 void ImplicitStep<Real>::archive(Archive& archive) {
     scheme_.archive(archive);
     archive.value(parts_);
-    archive.array(paces_);
-    archive.array(is_struck_);
+    paces_.archive(archive);
     archive.array(held_counts_);
     rows_.archive(archive);
     restitution_.archive(archive);
@@ -128,7 +118,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
                 rows_.make({previous.positions, expected_, compliances_, slacks_, step_, scheme_.last_step()},
                            pairs_.pairs(), system_.rows);
             if (wake_near(input, previous)) continue;
-            parts_ = count_parts();
+            parts_ = paces_.count_parts(system_.rows);
             if (is_found && shorten(input)) continue;
             if (!is_found || (!is_shortest && deepest() > static_cast<Real>(kDeepest))) {
                 divide();
@@ -139,7 +129,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             const TimedStage part(timer, "advance_nodes.linearise");
             islands_.find<Real>(*model_, system_.rows, previous,
                                 !input.load_forces.empty() || input.pulls != nullptr);
-            has_past = choose_schemes(damps || is_shortest);
+            has_past = paces_.choose(islands_, step_, damps || is_shortest, system_.rows, scheme_);
             find_targets(input, previous);
             linearise(input, previous);
         }
@@ -160,7 +150,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         {
             const TimedStage part(timer, "advance_nodes.finish");
             finish(input, previous, current);
-            find_paces(current);
+            paces_.find(system_, asleep_, current);
             if (moves_bodies(previous)) on_held = elastic_forces();
             gained = gain();
         }
@@ -187,7 +177,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         const double gravity = glm::length(glm::dvec3(model_->gravity));
         if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
                               system_.displacements, previous, energy_.before(), energy_.after()},
-                             system_.rigid, current, is_struck_))
+                             system_.rigid, current, paces_.struck()))
             energy_.change();
         break;
     }
@@ -254,7 +244,7 @@ template <class Real>
 void ImplicitStep<Real>::find_released(const Nodes<Real>& previous) {
     const std::vector<std::uint32_t> counts = count_held(previous);
     for (std::size_t o = 0; o < counts.size(); ++o)
-        if (counts[o] != held_counts_[o]) is_struck_[o] = 1;
+        if (counts[o] != held_counts_[o]) paces_.struck()[o] = 1;
     if (counts != held_counts_) energy_.change();
     held_counts_ = counts;
 }
@@ -274,6 +264,7 @@ void ImplicitStep<Real>::stand_still(const Nodes<Real>& previous, Nodes<Real>& c
     current = previous;
     energy_.forget();
     acting_.clear();
+    std::fill(paces_.struck().begin(), paces_.struck().end(), std::uint8_t(1));
     for (std::uint32_t n = 0; n < model_->node_count(); ++n)
         if (previous.positions[n].w != Real(0))
             current.velocities[n] = Vec4<Real>(Vec3<Real>(0), previous.velocities[n].w);
@@ -289,16 +280,6 @@ Real ImplicitStep<Real>::deepest() const {
         deepest = std::max(deepest, -row.gap_at(relative<Real>(row, expected_)) / most);
     }
     return deepest;
-}
-
-// By how bodies near others move.
-template <class Real>
-std::uint32_t ImplicitStep<Real>::count_parts() const {
-    Pace pace = Pace::still;
-    for (const ContactRow<Real>& row : system_.rows)
-        for (const std::uint32_t o : {row.object, row.other})
-            if (o != kNoNode && model_->is_body(o)) pace = std::min(pace, paces_[o]);
-    return kParts[static_cast<std::size_t>(pace)];
 }
 
 // @return whether the part was too long
@@ -334,44 +315,6 @@ Vec3<Real> ImplicitStep<Real>::acceleration(const StepInput<Real>& input, const 
                                      : gravity + previous.positions[n].w * Vec3<Real>(input.load_forces[n]);
 }
 
-// Schemes that hardly damp let bodies that rest tremble on for ever: islands that are calm go on by implicit
-// Euler's, and those that are still with dampers, too. So do bodies that restitution has struck, for a step;
-// and islands that touch something, and of which the step resolves none: what stops within a step would leave
-// with any speed.
-// @param damps whether all do @return whether any body goes on by another
-template <class Real>
-bool ImplicitStep<Real>::choose_schemes(bool damps) {
-    std::vector<Pace> paces(model_->body_count(), Pace::still);
-    std::vector<std::uint8_t> is_struck(model_->body_count()), touches = is_struck, resolves = is_struck;
-    for (const ContactRow<Real>& row : system_.rows)
-        touches[islands_.of_bodies[model_->is_body(row.other) ? row.other : row.object]] = 1;
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const std::uint32_t island = islands_.of_bodies[o];
-        paces[island] = std::min(paces[island], paces_[o]);
-        if (is_struck_[o] != 0) is_struck[island] = 1;
-        if (scheme_.resolves(o, step_)) resolves[island] = 1;
-    }
-    const bool has_past = !damps && scheme_.has_past();
-    bool any_goes_on = false;
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const std::uint32_t island = islands_.of_bodies[o];
-        const Pace pace = paces[island];
-        const bool goes_on = has_past && pace == Pace::moving && is_struck[island] == 0 &&
-                             (touches[island] == 0 || resolves[island] != 0);
-        if (goes_on) {
-            scheme_.set_second_order(o, step_);
-        } else {
-            scheme_.set(o, step_, pace == Pace::still ? static_cast<Real>(kRestingTime) : Real(0));
-        }
-        any_goes_on = any_goes_on || goes_on;
-    }
-    for (ContactRow<Real>& row : system_.rows) {
-        const std::uint32_t body = model_->is_body(row.other) ? row.other : row.object;
-        row.damping = scheme_.of(body).damping / step_ * row.slope_of(row.gap);
-    }
-    return any_goes_on;
-}
-
 template <class Real>
 void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<Real>& previous) {
     for_each_index(model_->node_count(), [&](std::size_t n) {
@@ -385,49 +328,6 @@ void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<
         system_.inertia[n] = Real(1) / (previous.positions[n].w * h * h);
         system_.displacements[n] = scheme_.target(previous, n, acceleration(input, previous, n));
     });
-}
-
-// Which bodies hardly vibrate, and touch others but hardly go towards or away from them; and which of them
-// hardly move at all.
-template <class Real>
-void ImplicitStep<Real>::find_paces(const Nodes<Real>& current) {
-    const double slow = kRestingFall * glm::length(glm::dvec3(model_->gravity));
-    std::vector<Motion> motions(system_.rigid.count(), Motion::Zero());
-    std::vector<double> vibrations(model_->body_count(), 0.0), fastest = vibrations, pressing = vibrations,
-                                                               approach = vibrations;
-    for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
-        if (asleep_[o] != 0) return;
-        const ModelObject& object = model_->objects[o];
-        const bool is_free = system_.rigid.is_free(o);
-        if (is_free) motions[system_.rigid.number(o)] = system_.rigid.velocity(o, current.velocities);
-        double squares = 0.0, mass = 0.0;
-        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-            const auto m = static_cast<double>(model_->masses[n]);
-            Vec3<Real> v(current.velocities[n]);
-            fastest[o] = std::max(fastest[o], static_cast<double>(glm::length(v)));
-            if (is_free) v -= system_.rigid.at(n, motions);
-            squares += m * static_cast<double>(glm::dot(v, v));
-            mass += m;
-        }
-        vibrations[o] = std::sqrt(squares / mass);
-    });
-    for (std::size_t r = 0; r < system_.rows.size(); ++r) {
-        const ContactRow<Real>& row = system_.rows[r];
-        const auto force = static_cast<double>(row.pressing(relative<Real>(row, system_.displacements)));
-        const auto speed = static_cast<double>(glm::dot(row.normal, system_.rigid.relative(r, motions)));
-        for (const std::uint32_t object : {row.object, row.other}) {
-            if (object == kNoNode || !model_->is_body(object)) continue;
-            pressing[object] += force;
-            approach[object] += force * std::abs(speed);
-        }
-    }
-    for (std::size_t o = 0; o < paces_.size(); ++o) {
-        const bool is_calm = pressing[o] > 0.0 && vibrations[o] < slow && approach[o] < slow * pressing[o];
-        paces_[o] = asleep_[o] != 0     ? Pace::still
-                    : !is_calm          ? Pace::moving
-                    : fastest[o] < slow ? Pace::still
-                                        : Pace::calm;
-    }
 }
 
 template <class Real>

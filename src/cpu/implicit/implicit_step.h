@@ -15,6 +15,7 @@
 #include "cpu/implicit/find_pairs.h"
 #include "cpu/implicit/guard.h"
 #include "cpu/implicit/islands.h"
+#include "cpu/implicit/paces.h"
 #include "cpu/implicit/restitution.h"
 #include "cpu/implicit/step_system.h"
 #include "cpu/implicit/time_scheme.h"
@@ -85,8 +86,6 @@ public:
 
 private:
     using Field = std::vector<Vec3<Real>>;
-    // How bodies move: calm ones only along what they touch (find_paces).
-    enum class Pace : std::uint8_t { moving, calm, still };
     // A contact's force on its second side when a step has ended [N].
     struct Acting {
         ContactRow<Real> row;
@@ -99,16 +98,13 @@ private:
     bool is_asleep(const ContactRow<Real>& row) const;
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
-    bool choose_schemes(bool damps);
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
-    void find_paces(const Nodes<Real>& current);
     void find_released(const Nodes<Real>& previous);
     bool is_torn(bool limits);
     std::vector<std::uint32_t> count_held(const Nodes<Real>& nodes) const;
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real deepest() const;
-    std::uint32_t count_parts() const;
     bool shorten(StepInput<Real>& input) const;
     bool detect(const Nodes<Real>& previous, bool is_shortest, bool own = true);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
@@ -129,10 +125,9 @@ private:
     EnergyAccount<Real> energy_;
     StepSystem<Real> system_;
     TimeScheme<Real> scheme_;
-    std::uint32_t parts_ = 1;                 // into which steps are divided
-    std::vector<Pace> paces_;                 // of bodies, at the end of the last step
+    std::uint32_t parts_ = 1;  // into which steps are divided
+    Paces<Real> paces_;
     std::vector<std::uint8_t> asleep_;        // bodies
-    std::vector<std::uint8_t> is_struck_;     // whose velocities do not go on from those before
     std::vector<std::uint32_t> held_counts_;  // of bodies' nodes, when the last step began
     Islands islands_;
     Real step_ = 0;
