@@ -6,6 +6,7 @@
 #include <span>
 
 #include "cpu/contact/contact_pair.h"
+#include "cpu/contact/tuning.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
@@ -57,9 +58,7 @@ public:
     }
 
 private:
-    // Edges of which a neighbour of the face beside them is in the way of the line by a cosine of this press
-    // half as much as edges without.
-    static constexpr Real kSoftened = Real(0.04f);
+    static constexpr Real kSoftened = static_cast<Real>(tuning::kSoftened);
 
     Vec3<Real> at(std::uint32_t node) const { return Vec3<Real>(positions_[node]); }
 

@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "cpu/contact/tuning.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
-namespace {
-
-// Nodes that have kept to their places for so long rest [s]. Whatever swings that slowly moves farther.
-constexpr double kRestTime = 0.5;
-// A place, as a part of the thickness of the body's surface: a 2000th of its median edge.
-constexpr double kPlace = 0.01;
-
-}  // namespace
-
 template <class Real>
 RestWatch<Real>::RestWatch(std::shared_ptr<const Model> model, std::span<const double> thicknesses)
     : model_(std::move(model)),
@@ -60,7 +52,7 @@ bool RestWatch<Real>::begin(const Drive& drive) {
         if (asleep_[o] != 0) return;
         const Range& nodes = model_->objects[o].nodes;
         if (times_[o] == 0.0 ||
-            leaves_place(nodes, static_cast<Real>(kPlace * thicknesses_[o]), drive.positions)) {
+            leaves_place(nodes, static_cast<Real>(tuning::kSleepPlace * thicknesses_[o]), drive.positions)) {
             times_[o] = 0.0;
             std::copy_n(drive.positions.begin() + nodes.first, nodes.count, places_.begin() + nodes.first);
         }
@@ -75,8 +67,9 @@ bool RestWatch<Real>::begin(const Drive& drive) {
 template <class Real>
 bool RestWatch<Real>::wake_moved(const Drive& drive) {
     const auto most = static_cast<Real>(
-        kPlace * *std::min_element(thicknesses_.begin(),
-                                   thicknesses_.begin() + static_cast<std::ptrdiff_t>(times_.size())));
+        tuning::kSleepPlace *
+        *std::min_element(thicknesses_.begin(),
+                          thicknesses_.begin() + static_cast<std::ptrdiff_t>(times_.size())));
     bool moves_colliders = false;
     for (std::size_t h = 0; h < drive.held_at.size(); ++h) {
         const std::uint32_t n = model_->handle_nodes[h].node;
@@ -107,7 +100,7 @@ template <class Real>
 void RestWatch<Real>::end(std::span<const std::uint32_t> islands) {
     std::vector<std::uint8_t> are_restless(asleep_.size());
     for (std::size_t o = 0; o < asleep_.size(); ++o)
-        if (times_[o] < kRestTime) are_restless[islands[o]] = 1;
+        if (times_[o] < tuning::kSleepTime) are_restless[islands[o]] = 1;
     for (std::size_t o = 0; o < asleep_.size(); ++o) {
         if (asleep_[o] != 0 || are_restless[islands[o]] != 0) continue;
         asleep_[o] = 1;

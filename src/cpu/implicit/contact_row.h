@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cpu/contact/contact_law.h"
+#include "cpu/contact/tuning.h"
 #include "cpu/nodes.h"
 #include "model/spring_packing.h"
 
@@ -18,7 +19,7 @@ namespace gelatin::cpu {
 /// first side and positive on the second. A plane, as a first side, has no nodes.
 template <class Real>
 struct ContactRow {
-    static constexpr Real kLeastGap = Real(0.1f);  ///< of the reach
+    static constexpr Real kLeastGap = static_cast<Real>(tuning::kLinearGap);  ///< of the reach
 
     std::array<std::uint32_t, 4> nodes{};
     std::array<Real, 4> weights{};

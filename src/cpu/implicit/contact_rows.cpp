@@ -8,21 +8,9 @@
 #include "cpu/collision/colliders.h"
 #include "cpu/contact/feasible_region.h"
 #include "cpu/contact/nearest_pairs.h"
+#include "cpu/contact/tuning.h"
 
 namespace gelatin::cpu {
-namespace {
-
-// A contact that is found nearer than its reach presses from there; the reach grows to all of it within this
-// time [s].
-constexpr double kEasing = 1.0 / 3.0;
-constexpr double kLeastReach = 1e-3;
-// What lies in a plane at first is pushed out as fast as it is deep, over this time [s].
-constexpr double kPushing = 0.1;
-// Parts of one body press from this part of their distance at rest on, if that is less than the reach.
-constexpr double kOfRestGap = 0.5;
-
-}  // namespace
-
 template <class Real>
 ContactRows<Real>::ContactRows(std::shared_ptr<const Model> model,
                                std::shared_ptr<const ContactSurface> surface)
@@ -35,8 +23,10 @@ void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weigh
                                         [](const Memory& m, std::uint64_t key) { return m.key < key; });
     const bool is_known = known != memory_.end() && known->key == row.key;
     if (is_known)
-        row.ease = known->ease * std::max(Real(0), Real(1) - start.step / static_cast<Real>(kPushing));
-    if (!is_known && row.gap <= Real(0)) row.ease = static_cast<Real>(kLeastReach) * row.reach - row.gap;
+        row.ease =
+            known->ease * std::max(Real(0), Real(1) - start.step / static_cast<Real>(tuning::kPushing));
+    if (!is_known && row.gap <= Real(0))
+        row.ease = static_cast<Real>(tuning::kLeastReach) * row.reach - row.gap;
     row.gap += row.ease;
     const Real there = row.gap_at(relative<Real>(row, start.expected));
     if (row.object == kNoNode && std::min(row.gap, there) > row.reach + start.slacks[row.other])
@@ -49,10 +39,11 @@ void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weigh
         row.reach = std::max(known->reach, std::min(reach, row.gap));
         Real& nearest = nearest_gaps_.try_emplace({row.object, row.other}, Real(1)).first->second;
         nearest = std::min(nearest, row.gap / row.reach);
-        row.reach = std::min(reach, row.reach + reach * start.last_step / static_cast<Real>(kEasing));
+        row.reach = std::min(reach, row.reach + reach * start.last_step / static_cast<Real>(tuning::kEasing));
     } else {
         new_rows_.push_back(static_cast<std::uint32_t>(rows.size()));
-        const Real nearest = std::max(there, Real(0.25) * std::min(row.gap, row.reach));
+        const Real nearest =
+            std::max(there, static_cast<Real>(tuning::kChordGap) * std::min(row.gap, row.reach));
         row.limit = row.friction * row.force_of(nearest);
     }
     // Of belts, whose surfaces move within themselves.
@@ -111,7 +102,8 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         row.gap = near.gap;
         row.reach = static_cast<Real>(pair.reach);
         // Parts of a body that are near each other at rest do not press there.
-        if (pair.is_own()) row.reach = std::min(row.reach, static_cast<Real>(kOfRestGap) * rest_gap(pair));
+        if (pair.is_own())
+            row.reach = std::min(row.reach, static_cast<Real>(tuning::kOfRestGap) * rest_gap(pair));
         row.friction = static_cast<Real>(touch.friction);
         row.key = pair.is_edges() ? std::uint64_t(1) << 63 | std::uint64_t(pair.first) << 31 | pair.second
                                   : std::uint64_t(pair.first) << 31 | pair.other;
@@ -142,7 +134,7 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         ContactRow<Real>& row = rows[r];
         const auto nearest = nearest_gaps_.find({row.object, row.other});
         const Real part = row.gap / row.reach / (nearest == nearest_gaps_.end() ? Real(1) : nearest->second);
-        row.reach *= std::clamp(part, static_cast<Real>(kLeastReach), Real(1));
+        row.reach *= std::clamp(part, static_cast<Real>(tuning::kLeastReach), Real(1));
     }
 }
 

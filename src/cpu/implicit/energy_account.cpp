@@ -7,21 +7,12 @@
 #include <numeric>
 #include <utility>
 
+#include "cpu/contact/tuning.h"
 #include "cpu/elasticity/elastic_energy.h"
 #include "cpu/implicit/rigid_part.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
-namespace {
-
-// Of energies, as a part of them, and for bodies at rest [J].
-constexpr double kRounding = 1e-7, kLeast = 1e-9;
-// What is owed up to this part of an island's energy is not taken: energies have rounding, and go to and
-// fro.
-constexpr double kSlack = 0.002;
-
-}  // namespace
-
 template <class Real>
 EnergyAccount<Real>::EnergyAccount(std::shared_ptr<const Model> model)
     : model_(std::move(model)), object_of_(objects_of_nodes(*model_)), before_(model_->body_count(), 0.0) {
@@ -90,7 +81,7 @@ void EnergyAccount<Real>::find_energy(std::size_t body, const Nodes<Real>& nodes
     momenta_[body] = momentum;
     potentials_[body] = potential;
     after_[body] = motion + potential;
-    rounding_[body] = kLeast + kRounding * (motion + std::abs(potential));
+    rounding_[body] = tuning::kLeastEnergy + tuning::kEnergyRounding * (motion + std::abs(potential));
 }
 
 // Each of two bodies has half.
@@ -192,7 +183,7 @@ double EnergyAccount<Real>::measure(const Step& step) {
             gained[i] -= gain;
             motions[i] = std::max(motions[i] - before, 0.0);
         }
-        slacks[i] += kSlack * motions[i];
+        slacks[i] += tuning::kSlackOfEnergy * motions[i];
     }
     for (std::size_t i = 0; i < bodies; ++i) {
         dues_[i] = std::max(owed_[i] - slacks[i], 0.0);

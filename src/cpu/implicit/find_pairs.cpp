@@ -7,6 +7,7 @@
 
 #include "cpu/collision/walk_tree.h"
 #include "cpu/contact/nearest_pairs.h"
+#include "cpu/contact/tuning.h"
 #include "model/corners.h"
 #include "model/for_each_index.h"
 
@@ -14,9 +15,6 @@ namespace gelatin::cpu {
 namespace {
 
 constexpr std::size_t kLeavesATask = 16;
-// Bodies that are convex at the start and keep this part of all distances do not meet themselves. Nearer
-// parts would press from half of their distance at rest on, but so far elements resist more than contacts.
-constexpr double kKept = 0.1;
 
 template <class Real>
 AxisBox<Real> swept(AxisBox<Real> box, const Vec3<Real>& motion) {
@@ -130,7 +128,7 @@ void FindPairs<Real>::find_own(const Paths<Real>& paths) {
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         owns_[o] = {};
         if (!kept_.is_convex(o) || is_still_[o] != 0) continue;
-        add_lost(o, kept_.find_lost_tets(o, static_cast<Real>(kKept), paths.from, paths.to));
+        add_lost(o, kept_.find_lost_tets(o, static_cast<Real>(tuning::kKept), paths.from, paths.to));
         owns_[o].listed = owns_[o].boxes.size();
     }
 }
@@ -140,7 +138,7 @@ bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
     bool any = false;
     for (std::uint32_t o = 0; finds_own_ && o < model_->body_count(); ++o) {
         if (!kept_.is_convex(o) || is_still_[o] != 0) continue;
-        add_lost(o, kept_.find_more_lost(o, static_cast<Real>(kKept), owns_[o].lost, ends));
+        add_lost(o, kept_.find_more_lost(o, static_cast<Real>(tuning::kKept), owns_[o].lost, ends));
         any = any || owns_[o].boxes.size() > owns_[o].listed;
     }
     return any;

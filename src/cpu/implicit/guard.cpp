@@ -8,32 +8,18 @@
 #include "core/disjoint_sets.h"
 #include "cpu/collision/colliders.h"
 #include "cpu/contact/nearest_pairs.h"
+#include "cpu/contact/tuning.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
 namespace {
 
-// What is left of a gap at the end of a step is at least this part of the reach, or of the gap if that is
-// less.
-constexpr double kLeastOfReach = 0.02, kLeastOfGap = 0.9;
-// But no less than so many times what rounding makes of it: what comes nearer, step by step, or by rounding
-// of what a frame adds, is moved apart again.
-constexpr double kLeastOfRounding = 8.0;
-// Of the rest, clipped pairs use this part.
-constexpr double kUsable = 0.95;
-// A side of a pair uses at least this part of the gap, if it yields at all.
-constexpr double kLeastShare = 0.05;
-// The shortest piece of a motion that is checked by itself.
-constexpr double kShortestPiece = 1.0 / 16.0;
-// A node is projected on its half spaces so often before it is shortened.
-constexpr int kProjections = 12;
-
 // What has to be left of a gap, both less rounding [m].
 template <class Real>
 Real least_gap(const NearPair<Real>& near, Real gap) {
-    return std::min(
-        static_cast<Real>(kLeastOfReach) * static_cast<Real>(near.pair.reach),
-        std::max(static_cast<Real>(kLeastOfGap) * gap, static_cast<Real>(kLeastOfRounding) * near.rounding));
+    return std::min(static_cast<Real>(tuning::kLeastOfReach) * static_cast<Real>(near.pair.reach),
+                    std::max(static_cast<Real>(tuning::kLeastOfGap) * gap,
+                             static_cast<Real>(tuning::kLeastOfRounding) * near.rounding));
 }
 
 }  // namespace
@@ -100,8 +86,9 @@ void Guard<Real>::keep_outside_colliders(const Paths<Real>& paths, std::span<Vec
             const SurfaceDistance<Real> from = surface_distance(collider, Vec3<Real>(paths.from[n])),
                                         to = surface_distance(collider, Vec3<Real>(ends[n]));
             const auto thickness = static_cast<Real>(surface_->thicknesses[object_of_[n]]);
-            const Real least = std::min({static_cast<Real>(kLeastOfReach) * thickness,
-                                         static_cast<Real>(kLeastOfGap) * from.distance, from.distance});
+            const Real least =
+                std::min({static_cast<Real>(tuning::kLeastOfReach) * thickness,
+                          static_cast<Real>(tuning::kLeastOfGap) * from.distance, from.distance});
             if (to.distance >= least) continue;
             const Real frame = glm::dot(from.normal, frames_[object_of_[n]]);
             add(n, -from.normal, (from.distance - least) + frame);
@@ -157,7 +144,7 @@ bool Guard<Real>::is_apart(const NearPair<Real>& near, const Paths<Real>& paths,
         if (to == Real(1) && separation<Real>(local, ahead, next) < least + rounding)
             return false;  // too near there
         length *= Real(0.5);
-        if (length < static_cast<Real>(kShortestPiece)) return false;
+        if (length < static_cast<Real>(tuning::kShortestPiece)) return false;
     }
     return true;
 }
@@ -188,13 +175,13 @@ void Guard<Real>::clip(const NearPair<Real>& near, const Paths<Real>& paths,
     }
     const Real gap = (bottom - top) - near.rounding;
     const Real room = gap - least_gap(near, gap);
-    const Real usable = (room > Real(0) ? static_cast<Real>(kUsable) : Real(1)) * room - approach;
+    const Real usable = (room > Real(0) ? static_cast<Real>(tuning::kUsable) : Real(1)) * room - approach;
     Real share = Real(0.5);
     if (first + second > Real(0)) {
         share = first / (first + second);
         if (first > Real(0) && second > Real(0))
-            share =
-                std::clamp(share, static_cast<Real>(kLeastShare), Real(1) - static_cast<Real>(kLeastShare));
+            share = std::clamp(share, static_cast<Real>(tuning::kLeastShare),
+                               Real(1) - static_cast<Real>(tuning::kLeastShare));
     }
     for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t node = pair.nodes[k];
@@ -217,7 +204,7 @@ template <class Real>
 void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
     Vec3<Real> d = wanted_[node];
     const Real tiny = Real(1e-6) * glm::length(d);
-    for (int k = 0; k < kProjections; ++k) {
+    for (int k = 0; k < tuning::kProjections; ++k) {
         bool is_outside = false;
         for (std::uint32_t h = first_[node]; h != kNoNode; h = half_spaces_[h].next) {
             const HalfSpace& space = half_spaces_[h];

@@ -8,34 +8,10 @@
 #include <utility>
 
 #include "cpu/contact/contact_force_sums.h"
+#include "cpu/contact/tuning.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
-namespace {
-
-// In shorter steps contacts are no stiffer than in one of this length: else impacts give nothing back [s].
-constexpr double kStiffestStep = 1.0 / 60.0;
-// Nodes may end this far from where they are expected: this part of the thickness, and of the longest
-// displacement, if that is no more than kFastest thicknesses.
-constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
-// Detections of a step for its guard alone, at most.
-constexpr int kMostGuards = 10;
-// What meets more slowly than after so long a fall does not bounce [s].
-constexpr double kBouncingFall = 1.0 / 30.0;
-// Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
-// part of their share of the island's energy; and in one step by what rounding makes of so many positions.
-constexpr double kAtRest = 0.001, kInIsland = 0.1, kRoundings = 2.0;
-// A step that gains an island of bodies this part of its energy was too long for its linearisation, and is
-// made shorter.
-constexpr double kMostGain = 0.05;
-// A step is divided in which contacts would come into each other by so many reaches: by two edges of the
-// surface.
-constexpr double kDeepest = 20.0;
-// And one in which two objects go so many reaches beside each other.
-constexpr double kFastest = 80.0;
-
-}  // namespace
-
 template <class Real>
 ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const CollisionSettings& collision,
                                  bool contacts, bool own, const ImplicitSettings& settings)
@@ -120,7 +96,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             if (wake_near(input, previous)) continue;
             parts_ = paces_.count_parts(system_.rows);
             if (is_found && shorten(input)) continue;
-            if (!is_found || (!is_shortest && deepest() > static_cast<Real>(kDeepest))) {
+            if (!is_found || (!is_shortest && deepest() > static_cast<Real>(tuning::kDeepest))) {
                 divide();
                 continue;
             }
@@ -164,7 +140,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             if (is_shortest) stop_guarded(wanted_ends, current);
             gained = gain();
         }
-        if (!is_shortest && gained > kMostGain) {
+        if (!is_shortest && gained > tuning::kMostGain) {
             divide();
             continue;
         }
@@ -175,9 +151,10 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         energy_.settle(islands_, current);
         rows_.remember();
         const double gravity = glm::length(glm::dvec3(model_->gravity));
-        if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
-                              system_.displacements, previous, energy_.before(), energy_.after()},
-                             system_.rigid, current, paces_.struck()))
+        if (restitution_.run(
+                {static_cast<double>(input.step), 2.0 * tuning::kRestingFall * gravity, system_.rows,
+                 system_.displacements, previous, energy_.before(), energy_.after()},
+                system_.rigid, current, paces_.struck()))
             energy_.change();
         break;
     }
@@ -227,7 +204,8 @@ bool ImplicitStep<Real>::is_torn(bool limits) {
         const std::span<const Vec3<Real>> moved(&system_.displacements[nodes.first], nodes.count);
         const Vec3<Real> mean =
             std::accumulate(moved.begin(), moved.end(), Vec3<Real>(0)) / static_cast<Real>(nodes.count);
-        const auto most = static_cast<Real>((limits ? kDeepest : 2.0 * kFastest) * surface_->reach(o, o));
+        const auto most =
+            static_cast<Real>((limits ? tuning::kDeepest : 2.0 * tuning::kFastest) * surface_->reach(o, o));
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             Vec3<Real>& d = system_.displacements[n];
             const Real found = glm::distance(d, mean);
@@ -294,7 +272,7 @@ bool ImplicitStep<Real>::shorten(StepInput<Real>& input) const {
 // Where nodes are expected, without forces but gravity and loads; and what is asked about them.
 template <class Real>
 void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous) {
-    const Real step = step_ = input.step, least = std::max(step, static_cast<Real>(kStiffestStep));
+    const Real step = step_ = input.step, least = std::max(step, static_cast<Real>(tuning::kFrame));
     for_each_index(model_->node_count(), [&](std::size_t n) {
         const Vec3<Real> x(previous.positions[n]), v(previous.velocities[n]);
         const bool is_held = previous.positions[n].w == Real(0);
@@ -337,9 +315,10 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
         velocities_[n].w = std::max(velocities_[n].w, scheme_.of(object_of_[n]).damping);
     });
     system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step);
-    const double fall = kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
+    const double fall =
+        tuning::kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
     const double rounding =
-        kRoundings * static_cast<double>(std::numeric_limits<Real>::epsilon() / input.step);
+        tuning::kRoundings * static_cast<double>(std::numeric_limits<Real>::epsilon() / input.step);
     std::vector<double> energies(model_->body_count(), 0.0), of_islands = energies;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const ModelObject& object = model_->objects[o];
@@ -355,7 +334,8 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands_.of_bodies[o];
         const double share = model_->objects[o].mass / islands_.masses[island];
-        system_.enough[o] = settings_.tolerance * (energies[o] + kInIsland * share * of_islands[island]);
+        system_.enough[o] =
+            settings_.tolerance * (energies[o] + tuning::kInIsland * share * of_islands[island]);
     }
     // A hand pulls like inertia does, to a place of its own.
     if (input.pulls != nullptr)
@@ -389,14 +369,14 @@ bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest, b
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             squared = std::max(squared, glm::dot(expected_[n], expected_[n]));
         const auto thickness = static_cast<Real>(surface_->thicknesses[o]);
-        slacks_[o] = static_cast<Real>(kSlackOfThickness) * thickness +
-                     static_cast<Real>(kSlackOfMotion) *
-                         std::min(std::sqrt(squared), static_cast<Real>(kFastest) * thickness);
+        slacks_[o] = static_cast<Real>(tuning::kSlackOfThickness) * thickness +
+                     static_cast<Real>(tuning::kSlackOfMotion) *
+                         std::min(std::sqrt(squared), static_cast<Real>(tuning::kFastest) * thickness);
     });
     if (!contacts_) return true;
     const Paths<Real> paths{previous.positions, ends_, slacks_};
     pairs_.begin(paths, own, asleep_);
-    if (!is_shortest && pairs_.fastest_approach(paths) > static_cast<Real>(kFastest)) return false;
+    if (!is_shortest && pairs_.fastest_approach(paths) > static_cast<Real>(tuning::kFastest)) return false;
     pairs_.run(paths);
     return true;
 }
@@ -422,7 +402,7 @@ template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
     const Paths<Real> paths{previous.positions, ends_, slacks_};
     bool has_changed = false;
-    for (int k = 0; k < kMostGuards; ++k) {
+    for (int k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
             guard_.run(paths, pairs_.pairs(), compliances_, current.positions);
         const bool has_lost = pairs_.find_lost(current.positions);

@@ -8,6 +8,7 @@
 
 #include "core/archive.h"
 #include "core/stage_timer.h"
+#include "cpu/contact/tuning.h"
 #include "cpu/descent/rest_watch.h"
 #include "cpu/drive/pulls.h"
 #include "cpu/implicit/contact_rows.h"
@@ -28,8 +29,9 @@
 namespace gelatin::cpu {
 
 struct ImplicitSettings {
-    int iterations = 10;      ///< of conjugate gradients for each linearisation of contacts, at most
-    double tolerance = 1e-4;  ///< of each: energy by which it may miss its least, as a part of the motion's
+    int iterations = 10;  ///< of conjugate gradients for each linearisation of contacts, at most
+    double tolerance =
+        tuning::kTolerance;  ///< of each: energy by which it may miss its least, as a part of the motion's
 };
 
 /// What a step is made with.

@@ -5,19 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "cpu/contact/tuning.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
-namespace {
-
-// Into how many parts a step is divided at least, by pace.
-constexpr std::array<std::uint32_t, 3> kParts{4, 2, 1};
-// Bodies come to rest that vibrate, and go to and fro, more slowly than after so long a fall [s]. Elements
-// and contacts of those that move no faster in all have at least this damping time [s].
-constexpr double kRestingFall = 1.0 / 60.0, kRestingTime = 0.1;
-
-}  // namespace
-
 template <class Real>
 Paces<Real>::Paces(std::shared_ptr<const Model> model)
     : model_(std::move(model)), paces_(model_->body_count()), is_struck_(model_->body_count()) {}
@@ -40,7 +31,7 @@ std::uint32_t Paces<Real>::count_parts(std::span<const ContactRow<Real>> rows) c
     for (const ContactRow<Real>& row : rows)
         for (const std::uint32_t o : {row.object, row.other})
             if (o != kNoNode && model_->is_body(o)) pace = std::min(pace, paces_[o]);
-    return kParts[static_cast<std::size_t>(pace)];
+    return tuning::kParts[static_cast<std::size_t>(pace)];
 }
 
 // So do bodies that are struck, for a step; and islands that touch something, and of which the step resolves
@@ -68,7 +59,7 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
         if (goes_on) {
             scheme.set_second_order(o, step);
         } else {
-            scheme.set(o, step, pace == Pace::still ? static_cast<Real>(kRestingTime) : Real(0));
+            scheme.set(o, step, pace == Pace::still ? static_cast<Real>(tuning::kRestingTime) : Real(0));
         }
         any_goes_on = any_goes_on || goes_on;
     }
@@ -82,7 +73,7 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
 template <class Real>
 void Paces<Real>::find(const StepSystem<Real>& system, std::span<const std::uint8_t> asleep,
                        const Nodes<Real>& current) {
-    const double slow = kRestingFall * glm::length(glm::dvec3(model_->gravity));
+    const double slow = tuning::kRestingFall * glm::length(glm::dvec3(model_->gravity));
     std::vector<Motion> motions(system.rigid.count(), Motion::Zero());
     std::vector<double> vibrations(model_->body_count(), 0.0), fastest = vibrations, pressing = vibrations,
                                                                approach = vibrations;

@@ -6,19 +6,10 @@
 #include <iterator>
 #include <vector>
 
+#include "cpu/contact/tuning.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
-namespace {
-
-// An impact is over when what is left of the approach, and what it would still change if it took as long
-// again, are this part of the approach.
-constexpr double kLeft = 0.1;
-// What takes longer is softness [s].
-constexpr double kLongestImpact = 0.1;
-
-}  // namespace
-
 template <class Real>
 Restitution<Real>::Restitution(std::shared_ptr<const Model> model,
                                std::shared_ptr<const ContactSurface> surface)
@@ -100,8 +91,8 @@ bool Restitution<Real>::run(const Step& step, const RigidLevel<Real>& rigid, Nod
             meeting.energy = energy_of(step.energies_before);
         }
         meeting.time += step.length;
-        const double left = kLeft * meeting.approach;
-        const bool counts = meeting.approach > step.resting_speed && meeting.time < kLongestImpact;
+        const double left = tuning::kLeftOfApproach * meeting.approach;
+        const bool counts = meeting.approach > step.resting_speed && meeting.time < tuning::kLongestImpact;
         bool is_over = !counts;
         if (counts && now.after >= -left * now.force &&
             (now.after - now.before) * meeting.time <= left * now.force * step.length) {

@@ -5,25 +5,12 @@
 #include <numeric>
 #include <utility>
 
+#include "cpu/contact/tuning.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
 namespace {
 
-// A body is nearly in balance where what is left of all forces on it is this part of what presses it: then
-// the limits of friction are found anew. It is in balance below the second.
-constexpr double kNearBalance = 0.1, kBalance = 1e-3;
-// A chord of the law goes no nearer than to this part of the gap at the start.
-constexpr double kLeastGap = 0.25;
-// A step along a direction is shortened where the slope has turned by more than this part of that at its
-// start.
-constexpr double kTurned = 0.1;
-constexpr int kHalvings = 20;
-constexpr int kMostRigidRounds = 20;
-// Linearisations of contacts in a step, at most. Each is solved until it lacks this part of the energy that
-// it lacked at first.
-constexpr int kMostLinearisations = 4;
-constexpr double kForcing = 0.05;
 constexpr std::size_t kChunk = 1024;  // of a sum
 
 }  // namespace
@@ -120,7 +107,8 @@ void StepSystem<Real>::find_chords(std::span<const Vec3<Real>> expected) {
         const Real there = row.gap_at(s);
         if (std::min(row.gap, there) < row.reach) {
             const Real from = std::min(row.gap, row.reach);
-            const Real to = row.gap > Real(0) ? std::max(there, Real(kLeastGap) * from) : there;
+            const Real to =
+                row.gap > Real(0) ? std::max(there, static_cast<Real>(tuning::kChordGap) * from) : there;
             const Real force = row.force_of(from);
             Real slope = row.stiffness;
             if (to < from * Real(0.999999)) {
@@ -250,10 +238,10 @@ double StepSystem<Real>::line_search(std::span<const Vec3<Real>> changes, double
     };
     const double first = fall(0.0);
     if (!(first > 0.0)) return 0.0;
-    if (fall(1.0) >= -kTurned * first) return 1.0;
+    if (fall(1.0) >= -tuning::kTurned * first) return 1.0;
     ++counts.line_searches;
     double low = 0.0, high = 1.0;
-    for (int k = 0; k < kHalvings; ++k) {
+    for (int k = 0; k < tuning::kMostRounds; ++k) {
         const double middle = 0.5 * (low + high);
         (fall(middle) > 0.0 ? low : high) = middle;
     }
@@ -296,12 +284,12 @@ void StepSystem<Real>::rigid_newton() {
         rigid.add_rows(row_forces_, sums);
         return sums;
     };
-    for (int k = 0; k < kMostRigidRounds; ++k) {
+    for (int k = 0; k < tuning::kMostRounds; ++k) {
         std::vector<Motion> step = forces();
-        if (is_balanced(kNearBalance, step)) {
+        if (is_balanced(tuning::kNearBalance, step)) {
             set_limits();
             step = forces();
-            if (k > 0 && is_balanced(kBalance, step)) break;
+            if (k > 0 && is_balanced(tuning::kBalance, step)) break;
         }
         ++counts.rigid_rounds;
         find_tangents();
@@ -362,7 +350,8 @@ void StepSystem<Real>::solve() {
     if (rows.empty()) {
         newton_step(2 * iterations, 0.0, true);
     } else {
-        for (int k = 0; k < kMostLinearisations && newton_step(iterations, kForcing, k == 0); ++k)
+        for (int k = 0; k < tuning::kMostLinearisations && newton_step(iterations, tuning::kForcing, k == 0);
+             ++k)
             find_tangents();
     }
     rigid_newton();

@@ -5,16 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "cpu/contact/tuning.h"
 #include "cpu/descent/holding_forces.h"
 
 namespace gelatin::cpu {
-namespace {
-
-// Into how many parts a step is divided at most, where bodies meet fast.
-constexpr int kMostParts = 256;
-
-}  // namespace
-
 template <class Real>
 SystemSolver<Real>::SystemSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision,
                                  const DescentSettings& settings)
@@ -74,7 +68,7 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
             goals_[n] = Vec3<Real>(current_.positions[n]) + size * Vec3<Real>(current_.velocities[n]);
     if (rests(step)) return;
     const std::vector<Vec4<Real>> velocities = current_.velocities;
-    const Real shortest = size / static_cast<Real>(kMostParts);
+    const Real shortest = size / static_cast<Real>(tuning::kMostParts);
     StepInput<Real> input{size, divides_steps_ ? size : Real(0), load_forces_, this->acting_pulls(),
                           rest_watch_ ? &*rest_watch_ : nullptr};
     if (std::exchange(goes_on_, false)) step_.go_on(current_, previous_.velocities, size);

@@ -4,18 +4,11 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "cpu/contact/tuning.h"
 #include "cpu/descent/rigid_inertia.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
-namespace {
-
-// What is left of fast vibrations in a step, with their sign reversed: (1 - alpha) / (1 + alpha). Slow ones
-// are damped by less the nearer it is to 1.
-constexpr double kLeftOfFast = 0.7;
-
-}  // namespace
-
 template <class Real>
 TimeScheme<Real>::TimeScheme(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
@@ -86,7 +79,7 @@ void TimeScheme<Real>::set(std::size_t object, Real step, Real damping) {
 
 template <class Real>
 void TimeScheme<Real>::set_second_order(std::size_t object, Real step) {
-    const auto alpha = static_cast<Real>((1.0 - kLeftOfFast) / (1.0 + kLeftOfFast));
+    const auto alpha = static_cast<Real>((1.0 - tuning::kLeftOfFast) / (1.0 + tuning::kLeftOfFast));
     schemes_[object] = {.length = step,
                         .step = Real(0.5) * step * std::sqrt(Real(1) + alpha),
                         .past = Real(1),
