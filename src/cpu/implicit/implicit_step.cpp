@@ -137,8 +137,11 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         const TimedStage part(timer, "advance_nodes.guard");
         const std::vector<Vec4<Real>> wanted_ends = current.positions;
         if (guard(previous, current)) {
-            if (is_shortest) stop_guarded(wanted_ends, current);
             gained = gain();
+            if (gained > 0.0) {
+                stop_guarded(wanted_ends, current);
+                gained = gain();
+            }
         }
         if (!is_shortest && gained > tuning::kMostGain) {
             divide();
@@ -417,8 +420,8 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
     return true;
 }
 
-// In the shortest part nodes are no faster than they went: else they press on what stopped them in each part
-// after it, and their energy goes into elements without end. Islands that nothing holds keep their momentum
+// Nodes that the guard has stopped are no faster than they went: else they press on what stopped them in each
+// part after it, and elements take up energy without end. Islands that nothing holds keep their momentum
 // and angular momentum.
 template <class Real>
 void ImplicitStep<Real>::stop_guarded(std::span<const Vec4<Real>> wanted, Nodes<Real>& current) const {

@@ -200,7 +200,7 @@ TEST(ColliderSurfaces, NothingPassesThroughThem) {
 TEST(ColliderSurfacesHeavy, NothingPassesThroughThem) {
     fuzz_colliders(4, 9);
     fuzz_colliders(251, 1);  // a ball tears a soft body, which stays tangled
-    fuzz_colliders(426, 1);  // what the guard stops in the shortest parts pressed on and gained energy
+    fuzz_colliders(426, 1);  // what the guard stopped pressed on and gained energy
 }
 
 TEST(ColliderSurfacesLong, NothingPassesThroughThem) {

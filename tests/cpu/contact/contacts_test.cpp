@@ -337,7 +337,7 @@ TEST(Contacts, NothingPassesThroughAnything) {
 
 TEST(ContactsHeavy, NothingPassesThroughAnything) {
     fuzz(4, 9);
-    fuzz(205, 1);  // what the guard stops in the shortest parts pressed on and gained energy
+    fuzz(205, 1);  // what the guard stopped pressed on and gained energy
     fuzz(1197, 1, 16,
          60);  // a soft body that is torn to twenty times its size, and moved while its map is old
 }
