@@ -92,7 +92,8 @@ inline constexpr double kLeastOfReach = 0.02, kLeastOfGap = 0.9;
 /// But no less than so many times what rounding makes of it: what comes nearer, step by step, or by rounding
 /// of what a frame adds, is moved apart again.
 inline constexpr double kLeastOfRounding = 8.0;
-/// Of the rest, clipped pairs use this part.
+/// Of the rest, clipped pairs use this part: with all of it rounding stops bodies at a box for good
+/// (`ColliderSurfaces.StopBodies`).
 inline constexpr double kUsable = 0.95;
 /// A side of a pair uses at least this part of the gap, if it yields at all.
 inline constexpr double kLeastShare = 0.05;
