@@ -136,10 +136,11 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         }
         const TimedStage part(timer, "advance_nodes.guard");
         const std::vector<Vec4<Real>> wanted_ends = current.positions;
+        std::vector<std::uint32_t> stopped;  // bodies
         if (guard(previous, current)) {
             gained = gain();
             if (gained > 0.0) {
-                stop_guarded(wanted_ends, current);
+                stopped = stop_guarded(wanted_ends, current);
                 gained = gain();
             }
         }
@@ -159,6 +160,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
                  system_.displacements, previous, energy_.before(), energy_.after()},
                 system_.rigid, current, paces_.struck()))
             energy_.change();
+        for (const std::uint32_t o : stopped) paces_.struck()[o] = 1;
         break;
     }
     scheme_.end(previous, current);
@@ -423,19 +425,27 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
 // Nodes that the guard has stopped are no faster than they went: else they press on what stopped them in each
 // part after it, and elements take up energy without end. Islands that nothing holds keep their momentum
 // and angular momentum.
+// @return bodies whose velocities have changed
 template <class Real>
-void ImplicitStep<Real>::stop_guarded(std::span<const Vec4<Real>> wanted, Nodes<Real>& current) const {
+std::vector<std::uint32_t> ImplicitStep<Real>::stop_guarded(std::span<const Vec4<Real>> wanted,
+                                                            Nodes<Real>& current) const {
     std::vector<RigidSums> sums(model_->body_count());  // by island, with momenta for forces
+    std::vector<std::uint8_t> is_stopped(sums.size());  // islands
     for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
         const Vec4<Real> x = current.positions[n];
         if (x.w == Real(0)) continue;
         const Vec3<Real> change = (Vec3<Real>(x) - Vec3<Real>(wanted[n])) / step_;
         current.velocities[n] += Vec4<Real>(change, 0);
         const double mass = 1.0 / static_cast<double>(x.w);
-        sums[islands_.of_bodies[object_of_[n]]].add(glm::dvec3(x), mass, mass * glm::dvec3(change));
+        const std::uint32_t island = islands_.of_bodies[object_of_[n]];
+        sums[island].add(glm::dvec3(x), mass, mass * glm::dvec3(change));
+        if (change != Vec3<Real>(0)) is_stopped[island] = 1;
     }
+    std::vector<std::uint32_t> stopped;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands_.of_bodies[o];
+        if (is_stopped[island] == 0) continue;
+        stopped.push_back(o);
         if (islands_.are_held[island] != 0) continue;
         const RigidInertia inertia(sums[island]);
         const Twist lost = inertia.twist(sums[island].force, sums[island].moment);
@@ -444,6 +454,7 @@ void ImplicitStep<Real>::stop_guarded(std::span<const Vec4<Real>> wanted, Nodes<
             current.velocities[n] -=
                 Vec4<Real>(Vec3<Real>(lost.at(glm::dvec3(current.positions[n]) - inertia.center)), 0);
     }
+    return stopped;
 }
 
 // Rotations that linear systems have found become true ones. And momentum and angular momentum of free
