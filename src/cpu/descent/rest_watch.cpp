@@ -7,6 +7,7 @@
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
+
 template <class Real>
 RestWatch<Real>::RestWatch(std::shared_ptr<const Model> model, std::span<const double> thicknesses)
     : model_(std::move(model)),

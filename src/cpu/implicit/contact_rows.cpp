@@ -11,6 +11,7 @@
 #include "cpu/contact/tuning.h"
 
 namespace gelatin::cpu {
+
 template <class Real>
 ContactRows<Real>::ContactRows(std::shared_ptr<const Model> model,
                                std::shared_ptr<const ContactSurface> surface)

@@ -13,6 +13,7 @@
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
+
 template <class Real>
 EnergyAccount<Real>::EnergyAccount(std::shared_ptr<const Model> model)
     : model_(std::move(model)), object_of_(objects_of_nodes(*model_)), before_(model_->body_count(), 0.0) {

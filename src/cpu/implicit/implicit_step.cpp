@@ -12,6 +12,7 @@
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
+
 template <class Real>
 ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const CollisionSettings& collision,
                                  bool contacts, bool own, const ImplicitSettings& settings)
@@ -135,12 +136,11 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             continue;
         }
         const TimedStage part(timer, "advance_nodes.guard");
-        const std::vector<Vec4<Real>> wanted_ends = current.positions;
         std::vector<std::uint32_t> stopped;  // bodies
         if (guard(previous, current)) {
             gained = gain();
             if (gained > 0.0) {
-                stopped = stop_guarded(wanted_ends, current);
+                stopped = stop_guarded(previous, current);
                 gained = gain();
             }
         }
@@ -427,14 +427,15 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
 // and angular momentum.
 // @return bodies whose velocities have changed
 template <class Real>
-std::vector<std::uint32_t> ImplicitStep<Real>::stop_guarded(std::span<const Vec4<Real>> wanted,
+std::vector<std::uint32_t> ImplicitStep<Real>::stop_guarded(const Nodes<Real>& previous,
                                                             Nodes<Real>& current) const {
     std::vector<RigidSums> sums(model_->body_count());  // by island, with momenta for forces
     std::vector<std::uint8_t> is_stopped(sums.size());  // islands
     for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
         const Vec4<Real> x = current.positions[n];
         if (x.w == Real(0)) continue;
-        const Vec3<Real> change = (Vec3<Real>(x) - Vec3<Real>(wanted[n])) / step_;
+        const Vec3<Real> wanted = Vec3<Real>(previous.positions[n]) + system_.displacements[n];
+        const Vec3<Real> change = (Vec3<Real>(x) - wanted) / step_;
         current.velocities[n] += Vec4<Real>(change, 0);
         const double mass = 1.0 / static_cast<double>(x.w);
         const std::uint32_t island = islands_.of_bodies[object_of_[n]];

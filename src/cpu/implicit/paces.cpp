@@ -9,6 +9,7 @@
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
+
 template <class Real>
 Paces<Real>::Paces(std::shared_ptr<const Model> model)
     : model_(std::move(model)), paces_(model_->body_count()), is_struck_(model_->body_count()) {}

@@ -10,6 +10,7 @@
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
+
 template <class Real>
 Restitution<Real>::Restitution(std::shared_ptr<const Model> model,
                                std::shared_ptr<const ContactSurface> surface)

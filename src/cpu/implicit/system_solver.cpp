@@ -9,6 +9,7 @@
 #include "cpu/descent/holding_forces.h"
 
 namespace gelatin::cpu {
+
 template <class Real>
 SystemSolver<Real>::SystemSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision,
                                  const DescentSettings& settings)

@@ -9,6 +9,7 @@
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
+
 template <class Real>
 TimeScheme<Real>::TimeScheme(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
