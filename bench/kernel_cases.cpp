@@ -1,13 +1,16 @@
 #include "bench/kernel_cases.h"
 
 #include <array>
+#include <cmath>
 
 #include "bench/threads.h"
 #include "cpu/descent/implicit_solver.h"
 #include "cpu/explicit/explicit_solver.h"
+#include "cpu/implicit/step_system.h"
 #include "gl/program.h"
 #include "gpu/descent/implicit_solver.h"
 #include "gpu/explicit/explicit_solver.h"
+#include "gpu/implicit/step_system.h"
 #include "gpu/view/update_normals.h"
 #include "model/assembly/build_model.h"
 #include "model/descent/descent_rows.h"
@@ -18,6 +21,10 @@ namespace {
 constexpr double kFrame = 1.0 / 60.0;  // [s], the step of vertex block descent
 
 constexpr std::array kDescentCases{kFewSweeps, kManySweeps, kWholeStep};
+
+constexpr int kSolveIterations = 10;
+constexpr const char* kLineariseStage = "linearise";
+constexpr const char* kSolveStage = "solve (10 iterations)";
 
 constexpr double kNodeBytes = 2 * sizeof(glm::vec4);
 
@@ -40,6 +47,19 @@ double integrate_bytes(const Model& m) {
 // A sweep reads springs with their dampers, and positions and targets; the step computes the springs.
 double descent_bytes(const Model& m, int sweeps) {
     return (sweeps + 1) * fused_bytes(m);
+}
+// A step's matrix, of edges that all have springs, and of tets.
+double matrix_bytes(const Model& m) {
+    return static_cast<double>(m.springs.size()) * (sizeof(EdgeMatrix) + 2 * sizeof(glm::uvec2));
+}
+double linearise_bytes(const Model& m) {
+    return matrix_bytes(m) + static_cast<double>(m.springs.size()) * sizeof(ElementEdge) +
+           static_cast<double>(m.tets.size()) * 5 * sizeof(glm::vec4) +
+           (kNodeBytes + sizeof(NodeBlock)) * m.node_count();
+}
+// An iteration reads the matrix, and reads and writes five fields.
+double solve_bytes(const Model& m) {
+    return (kSolveIterations + 1) * (matrix_bytes(m) + 10 * sizeof(glm::vec4) * m.node_count());
 }
 double normals_bytes(const Model& m) {
     return static_cast<double>(m.faces.size()) *
@@ -90,6 +110,61 @@ private:
     std::vector<glm::vec4> spring_forces_, node_forces_;
 };
 
+// What the system of a step is solved for: each node is pushed, with inertia as in a part of a frame.
+std::vector<glm::vec4> loads_of(const Model& model) {
+    std::vector<glm::vec4> loads;
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
+        const float inertia = 16.0f / (model.positions[n].w * static_cast<float>(kFrame * kFrame));
+        loads.emplace_back(1e-3f * inertia * glm::vec3(std::sin(0.1f * static_cast<float>(n)), 1.0f, 0.0f),
+                           inertia);
+    }
+    return loads;
+}
+constexpr float kInversePart = 4.0f / static_cast<float>(kFrame);  // [1/s]
+
+class CpuSystem {
+public:
+    explicit CpuSystem(const std::shared_ptr<const Model>& model)
+        : model_(model), loads_(loads_of(*model)), system_(model) {
+        for (std::size_t n = 0; n < loads_.size(); ++n) {
+            system_.inertia[n] = loads_[n].w;
+            system_.loads[n] = glm::vec3(loads_[n]);
+        }
+        system_.iterations = kSolveIterations / 2;
+        linearise();
+    }
+    void linearise() { system_.elastic.linearise(model_->positions, model_->velocities, kInversePart); }
+    void solve() {
+        std::fill(system_.displacements.begin(), system_.displacements.end(), glm::vec3(0.0f));
+        system_.rigid.begin(model_->positions, system_.inertia);
+        system_.solve();
+    }
+
+private:
+    std::shared_ptr<const Model> model_;
+    std::vector<glm::vec4> loads_;
+    cpu::StepSystem<float> system_;
+};
+
+class GlSystem {
+public:
+    explicit GlSystem(const Model& model)
+        : buffers_(model), nodes_(model.positions, model.velocities), system_(model) {
+        system_.loads.upload(loads_of(model));
+        system_.displacements.upload(std::vector<glm::vec4>(model.node_count(), glm::vec4(0.0f)));
+        system_.enough.upload(std::vector<float>(model.objects.size(), 0.0f));
+        system_.iterations = kSolveIterations / 2;
+        linearise();
+    }
+    void linearise() { system_.elastic.linearise(buffers_, nodes_, kInversePart); }
+    void solve() { system_.solve(nodes_); }
+
+private:
+    gpu::ModelBuffers buffers_;
+    gpu::NodeBuffers nodes_;
+    gpu::StepSystem system_;
+};
+
 void add_plain_cases(const std::shared_ptr<const Model>& model, double step, std::vector<KernelCase>& cases) {
     const auto fused = std::make_shared<PlainCore>(model, step),
                divided = std::make_shared<PlainCore>(model, step);
@@ -116,6 +191,7 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
         descents.push_back(
             std::make_shared<cpu::ImplicitSolver<float>>(model, CollisionSettings{}, descent.settings));
     }
+    const auto system = std::make_shared<CpuSystem>(model);
     const double divided_bytes = write_bytes(*model) + merge_bytes(*model) + integrate_bytes(*model);
     for (const int threads : measured_thread_counts()) {
         const std::string name = describe_cpu(threads);
@@ -129,6 +205,10 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
             cases.push_back({name, descent.stage, descent_bytes(*model, descent.settings.iterations),
                              [descent = descents[k]] { descent->advance({kFrame}); }, nothing, threads});
         }
+        cases.push_back({name, kLineariseStage, linearise_bytes(*model), [system] { system->linearise(); },
+                         nothing, threads});
+        cases.push_back(
+            {name, kSolveStage, solve_bytes(*model), [system] { system->solve(); }, nothing, threads});
         cases.push_back({name, "measure", fused_bytes(*model),
                          [fused] {
                              fused->begin_measure();
@@ -165,6 +245,10 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
         cases.push_back({kOpenGl, descent.stage, descent_bytes(m, descent.settings.iterations),
                          [solver] { solver->advance({kFrame}); }, finish});
     }
+    const auto system = std::make_shared<GlSystem>(m);
+    cases.push_back(
+        {kOpenGl, kLineariseStage, linearise_bytes(m), [system] { system->linearise(); }, finish});
+    cases.push_back({kOpenGl, kSolveStage, solve_bytes(m), [system] { system->solve(); }, finish});
     // One for each colour, and half of the four that come with every second sweep.
     const std::size_t dispatches = rows.batches.front().colors.size() + 2,
                       invocations = rows.nodes.size() / rows.batches.front().colors.size();

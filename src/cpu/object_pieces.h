@@ -43,26 +43,30 @@ public:
         return some;
     }
 
-    /// Calls visit(n) for all that objects consist of.
+    /// Calls visit(n) for all that objects consist of, or visit(range).
     template <class Visit>
     void for_each(const Visit& visit) const {
-        for_each_index(0, pieces_.size(), 1, [&](std::size_t p) {
-            for (std::uint32_t n = pieces_[p].range.first; n < pieces_[p].range.end(); ++n) visit(n);
+        for_each_piece([&](const Range& range) {
+            for (std::uint32_t n = range.first; n < range.end(); ++n) visit(n);
         });
+    }
+    template <class Visit>
+    void for_each_piece(const Visit& visit) const {
+        for_each_index(0, pieces_.size(), 1, [&](std::size_t p) { visit(pieces_[p].range); });
     }
 
     /// Of a value of each, by object; they do not depend on the number of threads.
-    template <class ValueOf>
-    std::vector<double> sums(const ValueOf& value_of) const {
-        std::vector<double> by_object(pieces_.empty() ? 0 : pieces_.back().object + 1);
+    template <class Value = double, class ValueOf>
+    std::vector<Value> sums(const ValueOf& value_of) const {
+        std::vector<Value> by_object(pieces_.empty() ? 0 : pieces_.back().object + 1, Value(0));
         gather(
-            std::span<double>(by_object),
+            std::span<Value>(by_object),
             [&](const Piece& piece) {
-                double sum = 0.0;
+                Value sum(0);
                 for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) sum += value_of(n);
                 return sum;
             },
-            [](double& sum, double more) { sum += more; });
+            [](Value& sum, const Value& more) { sum += more; });
         return by_object;
     }
 
@@ -72,13 +76,27 @@ public:
     /// @param of_piece(piece): a value @param join(value, more): joins the value with another one
     template <class Value, class OfPiece, class Join>
     void gather(std::span<Value> by_object, const OfPiece& of_piece, const Join& join) const {
-        std::vector<Value> values(pieces_.size());
-        for_each_index(0, values.size(), 1, [&](std::size_t p) { values[p] = of_piece(pieces_[p]); });
-        for (std::size_t p = 0; p < values.size(); ++p) join(by_object[pieces_[p].object], values[p]);
+        for_values(of_piece,
+                   [&](const Piece& piece, const auto& value) { join(by_object[piece.object], value); });
+    }
+
+    /// The sum of what of_piece(piece) gives for all pieces, in their order.
+    template <class OfPiece>
+    double sum(const OfPiece& of_piece) const {
+        double sum = 0.0;
+        for_values(of_piece, [&](const Piece&, double value) { sum += value; });
+        return sum;
     }
 
 private:
     static constexpr std::uint32_t kMost = 512;
+
+    template <class OfPiece, class Use>
+    void for_values(const OfPiece& of_piece, const Use& use) const {
+        std::vector<decltype(of_piece(pieces_[0]))> values(pieces_.size());
+        for_each_index(0, values.size(), 1, [&](std::size_t p) { values[p] = of_piece(pieces_[p]); });
+        for (std::size_t p = 0; p < values.size(); ++p) use(pieces_[p], values[p]);
+    }
 
     std::vector<Piece> pieces_;
 };

@@ -19,6 +19,7 @@ using glm::vec4;
 #include "layouts/descent.glsl"
 #include "layouts/dispatch.glsl"
 #include "layouts/draw.glsl"
+#include "layouts/element_edge.glsl"
 #include "layouts/face.glsl"
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/handle.glsl"
@@ -29,6 +30,7 @@ using glm::vec4;
 #include "layouts/shape_match.glsl"
 #include "layouts/skin_point.glsl"
 #include "layouts/spring.glsl"
+#include "layouts/step_system.glsl"
 #include "layouts/surface_vertex.glsl"
 #include "layouts/tet_strip.glsl"
 #include "layouts/tree_node.glsl"
@@ -48,6 +50,8 @@ static_assert(sizeof(ContactResponse) == 48);
 static_assert(sizeof(DescentRow) == 16);
 static_assert(sizeof(Dispatch) == 16);
 static_assert(sizeof(Draw) == 16);
+static_assert(sizeof(EdgeMatrix) == 48);
+static_assert(sizeof(ElementEdge) == 16);
 static_assert(sizeof(Face) == 16);
 static_assert(sizeof(FaceEdge) == 16);
 static_assert(sizeof(FacePair) == 16);
@@ -59,12 +63,14 @@ static_assert(sizeof(LeafSearch) == 32);
 static_assert(sizeof(LoadedNode) == 16);
 static_assert(sizeof(NearObject) == 16);
 static_assert(sizeof(NeoHookeanStep) == 64);
+static_assert(sizeof(NodeBlock) == 32);
 static_assert(sizeof(NodeLoad) == 32);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairRow) == 16);
 static_assert(sizeof(Proximity) == 48);
 static_assert(sizeof(ProximityCounts) == 16);
+static_assert(sizeof(ResidualSums) == 32);
 static_assert(sizeof(RestMoment) == 48);
 static_assert(sizeof(RestShape) == 48);
 static_assert(sizeof(RigidMotion) == 80);
@@ -72,7 +78,10 @@ static_assert(sizeof(ShapePlace) == 96);
 static_assert(sizeof(ShapeSums) == 80);
 static_assert(sizeof(ColliderContact) == 32);
 static_assert(sizeof(SkinPoint) == 32);
+static_assert(sizeof(SolveState) == 16);
 static_assert(sizeof(Spring) == 16);
+static_assert(sizeof(StepBody) == 48);
+static_assert(sizeof(StepBodySums) == 48);
 static_assert(sizeof(SurfaceVertex) == 16);
 static_assert(sizeof(TetCorner) == 16);
 static_assert(sizeof(TreeNode) == 16);
@@ -97,6 +106,8 @@ using layouts::ContactResponse;
 using layouts::DescentRow;
 using layouts::Dispatch;
 using layouts::Draw;
+using layouts::EdgeMatrix;
+using layouts::ElementEdge;
 using layouts::Face;
 using layouts::FaceEdge;
 using layouts::FacePair;
@@ -108,19 +119,24 @@ using layouts::LeafSearch;
 using layouts::LoadedNode;
 using layouts::NearObject;
 using layouts::NeoHookeanStep;
+using layouts::NodeBlock;
 using layouts::NodeLoad;
 using layouts::NodeSums;
 using layouts::ObjectPair;
 using layouts::PairRow;
 using layouts::Proximity;
 using layouts::ProximityCounts;
+using layouts::ResidualSums;
 using layouts::RestMoment;
 using layouts::RestShape;
 using layouts::RigidMotion;
 using layouts::ShapePlace;
 using layouts::ShapeSums;
 using layouts::SkinPoint;
+using layouts::SolveState;
 using layouts::Spring;
+using layouts::StepBody;
+using layouts::StepBodySums;
 using layouts::SurfaceVertex;
 using layouts::TetCorner;
 using layouts::TreeNode;

@@ -83,6 +83,28 @@ TEST_F(LayoutsTest, HalfSpringPair) {
           {FIELD(HalfSpringPair, node_0), FIELD(HalfSpringPair, rest_length_0), FIELD(HalfSpringPair, node_1),
            FIELD(HalfSpringPair, rest_length_1)});
 }
+TEST_F(LayoutsTest, ElementEdge) {
+    check("element_edge.glsl", "ElementEdge", sizeof(ElementEdge),
+          {FIELD(ElementEdge, lower), FIELD(ElementEdge, upper), FIELD(ElementEdge, rest_length),
+           FIELD(ElementEdge, stiffness)});
+    check("element_edge.glsl", "EdgeMatrix", sizeof(EdgeMatrix),
+          {FIELD(EdgeMatrix, x), FIELD(EdgeMatrix, y), FIELD(EdgeMatrix, z)});
+    check("element_edge.glsl", "NodeBlock", sizeof(NodeBlock),
+          {FIELD(NodeBlock, diagonal), FIELD(NodeBlock, beside)});
+}
+
+TEST_F(LayoutsTest, StepSystem) {
+    check("step_system.glsl", "StepBody", sizeof(StepBody),
+          {FIELD(StepBody, center), FIELD(StepBody, inverse_diagonal), FIELD(StepBody, inverse_beside)});
+    check("step_system.glsl", "StepBodySums", sizeof(StepBodySums),
+          {FIELD(StepBodySums, arm), FIELD(StepBodySums, square), FIELD(StepBodySums, beside)});
+    check("step_system.glsl", "ResidualSums", sizeof(ResidualSums),
+          {FIELD(ResidualSums, force), FIELD(ResidualSums, moment)});
+    check("step_system.glsl", "SolveState", sizeof(SolveState),
+          {FIELD(SolveState, lack), FIELD(SolveState, is_done), FIELD(SolveState, is_stuck),
+           FIELD(SolveState, iterations)});
+}
+
 TEST_F(LayoutsTest, Draw) {
     check("draw.glsl", "Draw", sizeof(Draw),
           {FIELD(Draw, count), FIELD(Draw, instance_count), FIELD(Draw, first), FIELD(Draw, first_instance)});

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "gpu/support/collision_scenarios.h"
+#include "gpu/support/implicit_scenarios.h"
 #include "gpu/support/solver_scenarios.h"
 #include "mutants/collision_mutants.h"
 #include "mutants/solver_mutants.h"
@@ -30,6 +31,8 @@ INSTANTIATE_MUTANTS(Drive, kDriveMutants,
                     joined({kinematics_scenarios(), load_scenarios(), driven_descent_scenarios(),
                             step_scenarios()}));
 INSTANTIATE_MUTANTS(Pulls, kPullMutants, pull_scenarios());
+INSTANTIATE_MUTANTS(ElasticSystem, kElasticSystemMutants, elastic_system_scenarios());
+INSTANTIATE_MUTANTS(StepSystem, kStepSystemMutants, step_system_scenarios());
 INSTANTIATE_MUTANTS(Descent, kDescentMutants, descent_scenarios());
 INSTANTIATE_MUTANTS(Matching, kMatchingMutants, matching_scenarios());
 INSTANTIATE_MUTANTS(NeoHookean, kNeoHookeanMutants,

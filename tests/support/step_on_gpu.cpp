@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "gpu/drive/sum_loads.h"
+#include "gpu/elasticity/find_volume_stresses.h"
 #include "gpu/explicit/advance_nodes.h"
 #include "gpu/explicit/divide_and_merge.h"
-#include "gpu/explicit/find_volume_stresses.h"
 #include "support/parity.h"
 
 namespace gelatin::test {

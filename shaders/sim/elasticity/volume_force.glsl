@@ -1,4 +1,4 @@
-// Forces of the volume term for explicit solvers, after sim/explicit/find_volume_stresses.comp. CPU twin:
+// Forces of the volume term for explicit solvers, after sim/elasticity/find_volume_stresses.comp. CPU twin:
 // cpu::gather_volume_forces.
 #include "sim/elasticity/volume_stresses.glsl"
 #include "sim/elasticity/volume_term.glsl"

@@ -86,10 +86,11 @@ struct ContactRow {
 };
 
 /// s, where nodes are displaced by d. @param displacements d [m], shape [nodes]
-template <class Real>
-Vec3<Real> relative(const ContactRow<Real>& row, std::span<const Vec3<Real>> displacements) {
+template <class Real, class Displacements>
+Vec3<Real> relative(const ContactRow<Real>& row, const Displacements& displacements) {
     Vec3<Real> s(0);
-    for (std::uint32_t k = 0; k < row.count; ++k) s += row.weights[k] * displacements[row.nodes[k]];
+    for (std::uint32_t k = 0; k < row.count; ++k)
+        s += row.weights[k] * Vec3<Real>(displacements[row.nodes[k]]);
     return s;
 }
 

@@ -237,7 +237,6 @@ ElasticArrays::ElasticArrays(const Model& model)
     resists.resize(first_neo_hookean);
     tet_rows.resize(kGroup * tets.size());
     tet_matrices.resize(kMatrix * kTetEdges * kGroup * neo_hookean.size());
-    displacements.resize((node_count + kGroup - 1) / kGroup * kGroup);
 }
 
 }  // namespace gelatin::cpu

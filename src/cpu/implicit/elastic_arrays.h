@@ -85,10 +85,9 @@ struct ElasticArrays {
     std::vector<float> tet_volumes;     ///< a quarter of each [m^3]
     std::vector<std::uint8_t> resists;  ///< whether one of a group of tets of springs has any stiffness
     std::vector<TetRows> tet_rows;
-    std::vector<float> tet_matrices;       ///< of the edges of neo-Hookean tets [N/m]
-    std::vector<float> matrices;           ///< of half edges [N/m]
-    bool has_matrices = false;             ///< whether any is not 0
-    std::vector<glm::vec4> displacements;  ///< xyz [m], whole groups
+    std::vector<float> tet_matrices;  ///< of the edges of neo-Hookean tets [N/m]
+    std::vector<float> matrices;      ///< of half edges [N/m]
+    bool has_matrices = false;        ///< whether any is not 0
 };
 
 }  // namespace gelatin::cpu

@@ -137,11 +137,11 @@ HWY_FLATTEN void node_group(const ElasticStart& start, std::size_t group, Elasti
     }
 }
 
-HWY_FLATTEN void product_group(std::size_t group, const ElasticArrays& arrays, glm::vec3* product) {
+HWY_INLINE void product_group(const Range& nodes, std::size_t group, const ElasticArrays& arrays,
+                              const float* displacements, glm::vec3* product) {
     const Lanes d;
-    const float* displacements = &arrays.displacements[0].x;
     HWY_ALIGN float rows[4 * kGroup];
-    const std::size_t first = kGroup * group, end = std::min<std::size_t>(first + kGroup, arrays.node_count);
+    const std::size_t first = kGroup * group;
     for (std::uint32_t row = 0; row < kGroup; row += kLanes) {
         const Columns self =
             load_columns(d, [&](std::size_t l) { return displacements + 4 * (first + row + l); });
@@ -156,7 +156,8 @@ HWY_FLATTEN void product_group(std::size_t group, const ElasticArrays& arrays, g
         }
         hn::StoreInterleaved4(sum.x.v, sum.y.v, sum.z.v, hn::Zero(d), d, rows + 4 * row);
     }
-    for (std::size_t n = first; n < end; ++n) {
+    for (std::size_t n = std::max<std::size_t>(first, nodes.first);
+         n < std::min<std::size_t>(first + kGroup, nodes.end()); ++n) {
         Row x = load_row(rows + 4 * (n - first)), y = row_of(0.0f), z = row_of(0.0f);
         if (arrays.has_matrices) {
             const Row self = load_row(displacements + 4 * n);
@@ -174,6 +175,12 @@ HWY_FLATTEN void product_group(std::size_t group, const ElasticArrays& arrays, g
     }
 }
 
+HWY_FLATTEN void product_range(const Range& nodes, const ElasticArrays& arrays,
+                               const glm::vec4* displacements, glm::vec3* product) {
+    for (std::size_t g = nodes.first / kGroup; kGroup * g < nodes.end(); ++g)
+        product_group(nodes, g, arrays, &displacements[0].x, product);
+}
+
 }  // namespace gelatin::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -181,15 +188,16 @@ HWY_AFTER_NAMESPACE();
 namespace gelatin::cpu {
 
 HWY_EXPORT(node_group);
-HWY_EXPORT(product_group);
+HWY_EXPORT(product_range);
 
 void linearise_nodes(const ElasticStart& start, std::size_t group, ElasticArrays& arrays, Vec3<float>* forces,
                      SymmetricMatrix<float>* diagonal) {
     HWY_DYNAMIC_DISPATCH(node_group)(start, group, arrays, forces, diagonal);
 }
 
-void multiply_nodes(std::size_t group, const ElasticArrays& arrays, Vec3<float>* product) {
-    HWY_DYNAMIC_DISPATCH(product_group)(group, arrays, product);
+void multiply_nodes(const Range& nodes, const ElasticArrays& arrays, const Vec4<float>* displacements,
+                    Vec3<float>* product) {
+    HWY_DYNAMIC_DISPATCH(product_range)(nodes, arrays, displacements, product);
 }
 
 }  // namespace gelatin::cpu

@@ -29,7 +29,8 @@ Real largest_stretch(const Mat3<Real>& f) {
 
 template <class Real>
 ElasticSystem<Real>::ElasticSystem(std::shared_ptr<const Model> model)
-    : model_(std::move(model)),
+    : displacements(model->node_count()),
+      model_(std::move(model)),
       node_tets_(make_node_tets(model_->node_count(), model_->tets)),
       spring_starts_(model_->node_count() + 1),
       half_springs_(2 * model_->springs.size()),
@@ -194,18 +195,18 @@ void ElasticSystem<Real>::linearise_neo_hookean(std::span<const Vec4<Real>> posi
 }
 
 template <class Real>
-void ElasticSystem<Real>::multiply(std::span<const Vec3<Real>> displacements, std::span<Vec3<Real>> product) {
+void ElasticSystem<Real>::begin_product() {
     const Model& model = *model_;
+    const auto at = [&](std::uint32_t n) { return Vec3<Real>(displacements[n]); };
     for_each_index(model.tets.size(), [&](std::size_t t) {
         Real sum = 0;
         for (int c = 0; c < 4; ++c)
-            sum += glm::dot(slopes_[4 * t + static_cast<std::size_t>(c)], displacements[model.tets[t][c]]);
+            sum += glm::dot(slopes_[4 * t + static_cast<std::size_t>(c)], at(model.tets[t][c]));
         tet_values_[t] = slope_weights_[t] * sum;
     });
     for_each_index(neo_hookean_.size(), [&](std::size_t t) {
         const NeoHookeanTet& tet = model.neo_hookean_tets[t];
         const TetStiffness& k = neo_hookean_[t];
-        const auto at = [&](std::uint32_t n) { return displacements[n]; };
         const Mat3<Real> df =
             gradient_of<Real>(tet, {at(tet.node_0), at(tet.node_1), at(tet.node_2), at(tet.node_3)});
         const Mat3<Real>& f = k.gradient;
@@ -224,29 +225,34 @@ void ElasticSystem<Real>::multiply(std::span<const Vec3<Real>> displacements, st
         corner_forces_[4 * t] =
             -(corner_forces_[4 * t + 1] + corner_forces_[4 * t + 2] + corner_forces_[4 * t + 3]);
     });
-    for_each_index(model.node_count(), [&](std::size_t n) {
-        const Vec3<Real> own = displacements[n];
+}
+
+template <class Real>
+void ElasticSystem<Real>::multiply(const Range& nodes, std::span<Vec3<Real>> product) const {
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const Vec3<Real> own(displacements[n]);
         Vec3<Real> sum(0);
         for (std::uint32_t e = spring_starts_[n]; e < spring_starts_[n + 1]; ++e) {
             const HalfSpring& half = half_springs_[e];
-            const Vec3<Real> change = own - displacements[half.other];
+            const Vec3<Real> change = own - Vec3<Real>(displacements[half.other]);
             sum += half.across * change + glm::dot(half.stretch, change) * half.stretch;
         }
         for (std::uint32_t e = node_tets_.starts[n]; e < node_tets_.starts[n + 1]; ++e)
             sum += tet_values_[node_tets_.entries[e] / 4] * slopes_[node_tets_.entries[e]];
         if (!neo_hookean_.empty()) {
-            const NodeTets& corners = model.neo_hookean_corners;
+            const NodeTets& corners = model_->neo_hookean_corners;
             for (std::uint32_t e = corners.starts[n]; e < corners.starts[n + 1]; ++e)
                 sum += corner_forces_[corners.entries[e]];
         }
         product[n] = sum;
-    });
+    }
 }
 
 template class ElasticSystem<double>;
 
 ElasticSystem<float>::ElasticSystem(std::shared_ptr<const Model> model)
-    : model_(std::move(model)),
+    : displacements((model->node_count() + kGroup - 1) / kGroup * kGroup),
+      model_(std::move(model)),
       arrays_(*model_),
       left_out_nodes_(arrays_.spring_starts.size() - 1),
       left_out_tets_(arrays_.tets.size()),
@@ -309,14 +315,8 @@ void ElasticSystem<float>::find_points(std::span<const Vec4<float>> positions) {
     });
 }
 
-void ElasticSystem<float>::multiply(std::span<const Vec3<float>> displacements,
-                                    std::span<Vec3<float>> product) {
-    for_each_index(displacements.size(),
-                   [&](std::size_t n) { arrays_.displacements[n] = glm::vec4(displacements[n], 0.0f); });
-    constexpr std::size_t kGrain = 32;
-    for_each_index(0, arrays_.spring_starts.size() - 1, kGrain, [&](std::size_t g) {
-        if (left_out_nodes_[g] == 0) multiply_nodes(g, arrays_, product.data());
-    });
+void ElasticSystem<float>::multiply(const Range& nodes, std::span<Vec3<float>> product) const {
+    multiply_nodes(nodes, arrays_, displacements.data(), product.data());
 }
 
 }  // namespace gelatin::cpu

@@ -34,8 +34,12 @@ public:
     /// The 3 x 3 blocks of K on its diagonal [N/m], shape [nodes].
     const std::vector<SymmetricMatrix<Real>>& diagonal() const { return diagonal_; }
 
-    /// @param displacements d [m] @param product output: K d [N]; both shape [nodes]
-    void multiply(std::span<const Vec3<Real>> displacements, std::span<Vec3<Real>> product);
+    /// d, of which products are made: xyz [m], shape [nodes] and somewhat more.
+    std::vector<Vec4<Real>> displacements;
+    /// To be called for each d, before its products.
+    void begin_product();
+    /// K d of some nodes. @param product output [N], shape [nodes]
+    void multiply(const Range& nodes, std::span<Vec3<Real>> product) const;
 
 private:
     // What a spring to `other` adds to K of a node: stretch stretch^T + across.
@@ -84,7 +88,9 @@ public:
     void leave_out(std::span<const std::uint8_t> asleep);
     const std::vector<Vec3<float>>& forces() const { return forces_; }
     const std::vector<SymmetricMatrix<float>>& diagonal() const { return diagonal_; }
-    void multiply(std::span<const Vec3<float>> displacements, std::span<Vec3<float>> product);
+    std::vector<Vec4<float>> displacements;
+    void begin_product() {}
+    void multiply(const Range& nodes, std::span<Vec3<float>> product) const;
 
 private:
     void find_points(std::span<const Vec4<float>> positions);

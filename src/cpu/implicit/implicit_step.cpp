@@ -128,7 +128,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             const TimedStage part(timer, "advance_nodes.finish");
             finish(input, previous, current);
             paces_.find(system_, asleep_, current);
-            if (moves_bodies(previous)) on_held = elastic_forces();
+            if (moves_bodies(previous)) on_held = system_.elastic_forces();
             gained = gain();
         }
         if (has_past && gained > 0.0) {
@@ -513,15 +513,6 @@ ContactForces ImplicitStep<Real>::contact_forces() const {
     return sums.take();
 }
 
-// Of elements when the step has ended [N].
-template <class Real>
-typename ImplicitStep<Real>::Field ImplicitStep<Real>::elastic_forces() {
-    Field product(model_->node_count());
-    system_.elastic.multiply(system_.displacements, product);
-    for (std::size_t n = 0; n < product.size(); ++n) product[n] = system_.elastic.forces()[n] - product[n];
-    return product;
-}
-
 // Whether handles move nodes of bodies.
 template <class Real>
 bool ImplicitStep<Real>::moves_bodies(const Nodes<Real>& previous) const {
@@ -535,7 +526,7 @@ template <class Real>
 void ImplicitStep<Real>::find_forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous,
                                              std::vector<glm::dvec3>& forces) {
     if (scheme_.last_step() == Real(0)) return forces.clear();
-    const Field elastic = elastic_forces();
+    const Field elastic = system_.elastic_forces();
     forces.resize(elastic.size());
     for_each_index(elastic.size(), [&](std::size_t n) {
         if (object_of_[n] >= asleep_.size() || asleep_[object_of_[n]] == 0) forces[n] = elastic[n];

@@ -111,7 +111,6 @@ private:
     bool detect(const Nodes<Real>& previous, bool is_shortest, bool own = true);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
     std::vector<std::uint32_t> stop_guarded(const Nodes<Real>& previous, Nodes<Real>& current) const;
-    Field elastic_forces();
     bool moves_bodies(const Nodes<Real>& previous) const;
     void finish(const StepInput<Real>& input, const Nodes<Real>& previous, Nodes<Real>& current);
 

@@ -36,6 +36,9 @@ public:
     bool is_empty() const { return bodies_.empty(); }
     std::uint32_t number(std::size_t object) const { return numbers_[object]; }
     std::size_t count() const { return bodies_.size(); }
+    std::uint32_t object(std::size_t number) const { return bodies_[number].object; }
+    /// From its free body's centre to a node [m].
+    const Vec3<Real>& arm(std::size_t node) const { return arms_[node]; }
     /// Of mass, of a free body where the step begins [m].
     const glm::dvec3& center(std::size_t object) const { return bodies_[numbers_[object]].center; }
 

@@ -27,8 +27,7 @@ StepSystem<Real>::StepSystem(std::shared_ptr<const Model> model)
       pieces_(node_ranges(*model_)),
       row_starts_(model_->node_count() + 1),
       inverse_blocks_(model_->node_count()) {
-    for (Field* field : {&base_, &residual_, &direction_, &moved_, &product_, &with_rows_, &z_, &p_})
-        field->resize(model_->node_count());
+    for (Field* field : {&base_, &residual_, &step_, &product_, &z_}) field->resize(model_->node_count());
     leave_out(std::vector<std::uint8_t>(model_->body_count()));
 }
 
@@ -38,8 +37,9 @@ void StepSystem<Real>::leave_out(std::span<const std::uint8_t> asleep) {
     std::vector<std::uint8_t> left_out(model_->objects.size(), 1);  // colliders, too
     std::copy(asleep.begin(), asleep.end(), left_out.begin());
     awake_ = pieces_.without(left_out);
-    for (Field* field : {&base_, &residual_, &direction_, &moved_, &product_, &with_rows_, &z_, &p_})
+    for (Field* field : {&base_, &residual_, &step_, &product_, &z_})
         std::fill(field->begin(), field->end(), Vec3<Real>(0));
+    std::fill(elastic.displacements.begin(), elastic.displacements.end(), Vec4<Real>(0));
 }
 
 template <class Real>
@@ -59,32 +59,46 @@ void StepSystem<Real>::index_rows() {
 // force_of(row number): on the second side.
 template <class Real>
 template <class ForceOf>
-void StepSystem<Real>::add_row_forces(const ForceOf& force_of, Field& sum) {
-    if (rows.empty()) return;
+void StepSystem<Real>::find_row_forces(const ForceOf& force_of) {
     for_each_index(rows.size(), [&](std::size_t r) { row_forces_[r] = force_of(r); });
-    awake_.for_each([&](std::uint32_t n) {
-        if (inertia[n] == Real(0)) return;
-        for (std::uint32_t e = row_starts_[n]; e < row_starts_[n + 1]; ++e) {
-            const std::uint32_t entry = row_entries_[e];
-            sum[n] += rows[entry / 4].weights[entry % 4] * row_forces_[entry / 4];
-        }
-    });
 }
 
+// What they add to the forces on a node.
 template <class Real>
-void StepSystem<Real>::multiply(const Field& d, Field& product) {
-    ++counts.products;
-    elastic.multiply(d, product);
-    awake_.for_each([&](std::uint32_t n) {
-        product[n] = inertia[n] > Real(0) ? product[n] + inertia[n] * d[n] : Vec3<Real>(0);
-    });
+Vec3<Real> StepSystem<Real>::of_rows(std::uint32_t node) const {
+    Vec3<Real> sum(0);
+    for (std::uint32_t e = row_starts_[node]; e < row_starts_[node + 1]; ++e) {
+        const std::uint32_t entry = row_entries_[e];
+        sum += rows[entry / 4].weights[entry % 4] * row_forces_[entry / 4];
+    }
+    return sum;
 }
 
 template <class Real>
 void StepSystem<Real>::find_base_residual() {
-    multiply(displacements, product_);
-    awake_.for_each(
-        [&](std::uint32_t n) { base_[n] = inertia[n] > Real(0) ? loads[n] - product_[n] : Vec3<Real>(0); });
+    ++counts.products;
+    for_each_index(displacements.size(),
+                   [&](std::size_t n) { elastic.displacements[n] = Vec4<Real>(displacements[n], 0); });
+    elastic.begin_product();
+    awake_.for_each_piece([&](const Range& nodes) {
+        elastic.multiply(nodes, product_);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            base_[n] = inertia[n] > Real(0) ? loads[n] - (product_[n] + inertia[n] * displacements[n])
+                                            : Vec3<Real>(0);
+    });
+}
+
+template <class Real>
+std::vector<Vec3<Real>> StepSystem<Real>::elastic_forces() {
+    for_each_index(displacements.size(),
+                   [&](std::size_t n) { elastic.displacements[n] = Vec4<Real>(displacements[n], 0); });
+    elastic.begin_product();
+    Field forces(displacements.size());
+    pieces_.for_each_piece([&](const Range& nodes) {
+        elastic.multiply(nodes, forces);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) forces[n] = elastic.forces()[n] - forces[n];
+    });
+    return forces;
 }
 
 template <class Real>
@@ -139,13 +153,6 @@ void StepSystem<Real>::set_limits() {
 }
 
 template <class Real>
-double StepSystem<Real>::dot(const Field& a, const Field& b) const {
-    const std::vector<double> sums =
-        awake_.sums([&](std::uint32_t n) { return static_cast<double>(glm::dot(a[n], b[n])); });
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
-}
-
-template <class Real>
 void StepSystem<Real>::prepare_preconditioner(bool only_rows) {
     awake_.for_each([&](std::uint32_t n) {
         const bool has_rows = row_starts_[n] < row_starts_[n + 1];
@@ -164,58 +171,107 @@ void StepSystem<Real>::prepare_preconditioner(bool only_rows) {
     rigid.factorise(tangents_);
 }
 
-// z = M^-1 r
+// z = M^-1 r: z_ by nodes' blocks, and the rigid level. update(n): of free nodes, what residual_ becomes.
+// @param is_enough output: whether no body may lack more of its least energy than it should @return r . z
 template <class Real>
-void StepSystem<Real>::precondition(const Field& r, Field& z) {
-    std::vector<Motion> motions = rigid.gather(r);
-    rigid.solve(motions);
-    rigid.for_displacements(awake_, motions, [&](std::size_t n, const Vec3<Real>& rigid_part) {
-        z[n] = inertia[n] > Real(0) ? inverse_blocks_[n] * r[n] + rigid_part : Vec3<Real>(0);
+template <class Update>
+double StepSystem<Real>::precondition(const Update& update, bool& is_enough) {
+    struct Part {
+        double lack = 0.0;  // r . z
+        glm::dvec3 force{0.0}, moment{0.0};
+    };
+    std::vector<Part> parts(model_->objects.size());
+    awake_.gather(
+        std::span<Part>(parts),
+        [&](const ObjectPieces::Piece& piece) {
+            Part part;
+            for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) {
+                if (inertia[n] == Real(0)) continue;
+                const Vec3<Real> r = update(n), z = inverse_blocks_[n] * r;
+                residual_[n] = r;
+                z_[n] = z;
+                part.lack += static_cast<double>(glm::dot(r, z));
+                const glm::dvec3 force(r);
+                part.force += force;
+                part.moment += glm::cross(glm::dvec3(rigid.arm(n)), force);
+            }
+            return part;
+        },
+        [](Part& sum, const Part& more) {
+            sum.lack += more.lack;
+            sum.force += more.force;
+            sum.moment += more.moment;
+        });
+    std::vector<Motion> forces(rigid.count());
+    for (std::size_t b = 0; b < forces.size(); ++b)
+        forces[b] = motion(parts[rigid.object(b)].force, parts[rigid.object(b)].moment);
+    rigid_z_ = forces;
+    rigid.solve(rigid_z_);
+    is_enough = true;
+    double sum = 0.0;
+    for (std::size_t o = 0; o < parts.size(); ++o) {
+        double lack = parts[o].lack;
+        if (rigid.is_free(o)) lack += forces[rigid.number(o)].dot(rigid_z_[rigid.number(o)]);
+        is_enough = is_enough && lack <= enough[o];
+        sum += lack;
+    }
+    return sum;
+}
+
+// product_ = A p, rows among it. @return p . A p
+template <class Real>
+double StepSystem<Real>::multiply_direction() {
+    ++counts.products;
+    const std::vector<Vec4<Real>>& p = elastic.displacements;
+    find_row_forces([&](std::size_t r) { return tangents_[r].stiffness * relative<Real>(rows[r], p); });
+    elastic.begin_product();
+    return awake_.sum([&](const ObjectPieces::Piece& piece) {
+        elastic.multiply(piece.range, product_);
+        double sum = 0.0;
+        for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) {
+            if (inertia[n] == Real(0)) continue;
+            const Vec3<Real> d(p[n]), all = product_[n] + inertia[n] * d + of_rows(n);
+            product_[n] = all;
+            sum += static_cast<double>(glm::dot(d, all));
+        }
+        return sum;
     });
 }
 
-// residual_ . z_. @param is_enough output: whether no body may lack more of its least energy than it should
-template <class Real>
-double StepSystem<Real>::find_lack(bool& is_enough) const {
-    const std::vector<double> lacks =
-        awake_.sums([&](std::uint32_t n) { return static_cast<double>(glm::dot(residual_[n], z_[n])); });
-    is_enough = true;
-    for (std::size_t o = 0; o < lacks.size(); ++o) is_enough = is_enough && lacks[o] <= enough[o];
-    return std::accumulate(lacks.begin(), lacks.end(), 0.0);
-}
-
-// From no direction, with the linear residual in residual_. Also finds A direction_, without rows. A step
-// makes one iteration at least: what elements exert counts, however short it is.
+// From no step, with the linear residual in residual_. A step makes one iteration at least: what elements
+// exert counts, however short it is.
 // @param forcing part of what is lacking at first that may be left @return iterations
 template <class Real>
 int StepSystem<Real>::conjugate_gradients(int count, double forcing) {
-    awake_.for_each([&](std::uint32_t n) { direction_[n] = moved_[n] = Vec3<Real>(0); });
-    precondition(residual_, z_);
-    p_ = z_;
     bool is_enough = false;
-    double rz = find_lack(is_enough);
+    double rz = precondition(
+        [&](std::uint32_t n) {
+            step_[n] = Vec3<Real>(0);
+            return residual_[n];
+        },
+        is_enough);
     const double enough_of_all = forcing * rz;
+    std::vector<Vec4<Real>>& p = elastic.displacements;
+    for_each_index(p.size(), [&](std::size_t n) { p[n] = Vec4<Real>(0); });
+    Real b = 0;
     int k = 0;
-    for (; k < count && ((!is_enough && rz > enough_of_all) || (counts.iterations == 0 && rz > 0.0)); ++k) {
-        ++counts.iterations;
-        multiply(p_, product_);
-        with_rows_ = product_;
-        add_row_forces([&](std::size_t r) { return tangents_[r].stiffness * relative<Real>(rows[r], p_); },
-                       with_rows_);
-        const double curvature = dot(p_, with_rows_);
-        if (!(curvature > 0.0)) return k;
-        const auto a = static_cast<Real>(rz / curvature);
-        awake_.for_each([&](std::uint32_t n) {
-            direction_[n] += a * p_[n];
-            moved_[n] += a * product_[n];
-            residual_[n] -= a * with_rows_[n];
+    while (k < count && ((!is_enough && rz > enough_of_all) || (counts.iterations == 0 && rz > 0.0))) {
+        rigid.for_displacements(awake_, rigid_z_, [&](std::size_t n, const Vec3<Real>& rigid_part) {
+            if (inertia[n] > Real(0)) p[n] = Vec4<Real>(z_[n] + rigid_part + b * Vec3<Real>(p[n]), 0);
         });
-        if (k + 1 == count) return count;
-        precondition(residual_, z_);
-        const double next = find_lack(is_enough);
-        const auto b = static_cast<Real>(next / rz);
+        ++counts.iterations;
+        const double curvature = multiply_direction();
+        if (!(curvature > 0.0)) return k;
+        ++k;
+        const auto a = static_cast<Real>(rz / curvature);
+        const double next = precondition(
+            [&](std::uint32_t n) {
+                step_[n] += a * Vec3<Real>(p[n]);
+                return residual_[n] - a * product_[n];
+            },
+            is_enough);
+        b = static_cast<Real>(next / rz);
         rz = next;
-        awake_.for_each([&](std::uint32_t n) { p_[n] = z_[n] + b * p_[n]; });
     }
     return k;
 }
@@ -279,7 +335,7 @@ void StepSystem<Real>::rigid_newton() {
     std::vector<Motion> base = rigid.gather(base_), moved(rigid.count(), Motion::Zero());
     std::vector<Vec3<Real>> changes(rows.size());
     const auto forces = [&] {
-        for_each_index(rows.size(), [&](std::size_t r) { row_forces_[r] = rows[r].force(slips_[r]); });
+        find_row_forces([&](std::size_t r) { return rows[r].force(slips_[r]); });
         std::vector<Motion> sums = base;
         rigid.add_rows(row_forces_, sums);
         return sums;
@@ -319,16 +375,29 @@ void StepSystem<Real>::rigid_newton() {
 template <class Real>
 bool StepSystem<Real>::newton_step(int most_iterations, double forcing, bool is_first) {
     prepare_preconditioner(!is_first);
-    residual_ = base_;
-    add_row_forces([&](std::size_t r) { return tangents_[r].force(slips_[r]); }, residual_);
-    if (conjugate_gradients(most_iterations, forcing) == 0) return false;
-    std::vector<Vec3<Real>> changes(rows.size());
-    for_each_index(rows.size(), [&](std::size_t r) { changes[r] = relative<Real>(rows[r], direction_); });
-    const double part =
-        rows.empty() ? 1.0 : line_search(changes, dot(direction_, base_), dot(direction_, moved_));
+    find_row_forces([&](std::size_t r) { return tangents_[r].force(slips_[r]); });
     awake_.for_each([&](std::uint32_t n) {
-        displacements[n] += static_cast<Real>(part) * direction_[n];
-        base_[n] -= static_cast<Real>(part) * moved_[n];
+        residual_[n] = inertia[n] > Real(0) ? base_[n] + of_rows(n) : Vec3<Real>(0);
+    });
+    if (conjugate_gradients(most_iterations, forcing) == 0) return false;
+    // A times the step, without rows: what the residual lost, less what rows did.
+    std::vector<Vec3<Real>> changes(rows.size());
+    find_row_forces([&](std::size_t r) {
+        changes[r] = relative<Real>(rows[r], step_);
+        return tangents_[r].force(slips_[r]) - tangents_[r].stiffness * changes[r];
+    });
+    const std::vector<glm::dvec2> sums = awake_.sums<glm::dvec2>([&](std::uint32_t n) {
+        if (inertia[n] == Real(0)) return glm::dvec2(0.0);
+        const Vec3<Real> step = step_[n], resists = base_[n] + of_rows(n) - residual_[n];
+        product_[n] = resists;
+        return glm::dvec2(glm::dot(step, base_[n]), glm::dot(step, resists));
+    });
+    const glm::dvec2 sum = std::accumulate(sums.begin(), sums.end(), glm::dvec2(0.0));
+    const auto part = static_cast<Real>(rows.empty() ? 1.0 : line_search(changes, sum.x, sum.y));
+    awake_.for_each([&](std::uint32_t n) {
+        if (inertia[n] == Real(0)) return;
+        displacements[n] += part * step_[n];
+        base_[n] -= part * product_[n];
     });
     find_slips();
     return true;

@@ -45,23 +45,25 @@ public:
     void leave_out(std::span<const std::uint8_t> asleep);
     /// @pre rigid.begin was called
     void solve();
+    /// Of elements, at the displacements [N], shape [nodes].
+    std::vector<Vec3<Real>> elastic_forces();
 
 private:
     using Field = std::vector<Vec3<Real>>;
 
     void index_rows();
     template <class ForceOf>
-    void add_row_forces(const ForceOf& force_of, Field& sum);
-    void multiply(const Field& d, Field& product);  // without rows
+    void find_row_forces(const ForceOf& force_of);
+    Vec3<Real> of_rows(std::uint32_t node) const;
     void find_base_residual();
     void find_slips();
     void find_tangents();
     void find_chords(std::span<const Vec3<Real>> expected);
     void set_limits();
-    double dot(const Field& a, const Field& b) const;
     void prepare_preconditioner(bool only_rows);
-    void precondition(const Field& r, Field& z);
-    double find_lack(bool& is_enough) const;
+    template <class Update>
+    double precondition(const Update& update, bool& is_enough);
+    double multiply_direction();
     int conjugate_gradients(int count, double forcing);
     double line_search(std::span<const Vec3<Real>> changes, double base, double curvature);
     bool is_balanced(double tolerance, std::span<const Motion> forces) const;
@@ -72,10 +74,10 @@ private:
     ObjectPieces pieces_, awake_;                          // of bodies' nodes; of those that move
     std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place
     std::vector<RowTangent<Real>> tangents_;
-    std::vector<Vec3<Real>> row_forces_, slips_;           // slips: s of rows, by displacements
-    std::vector<SymmetricMatrix<Real>> inverse_blocks_;    // of nodes
-    Field base_, residual_, direction_, product_, z_, p_;  // base: loads - A d
-    Field moved_, with_rows_;                              // A direction_, without rows; A p_, with them
+    std::vector<Vec3<Real>> row_forces_, slips_;         // slips: s of rows, by displacements
+    std::vector<SymmetricMatrix<Real>> inverse_blocks_;  // of nodes
+    Field base_, residual_, step_, product_, z_;         // base: loads - A d, without rows
+    std::vector<Motion> rigid_z_;                        // what z has beside z_, of the rigid level
 };
 
 }  // namespace gelatin::cpu

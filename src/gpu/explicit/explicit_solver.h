@@ -4,9 +4,9 @@
 #include <optional>
 #include <variant>
 
+#include "gpu/elasticity/find_volume_stresses.h"
 #include "gpu/explicit/advance_nodes.h"
 #include "gpu/explicit/divide_and_merge.h"
-#include "gpu/explicit/find_volume_stresses.h"
 #include "gpu/gpu_solver.h"
 
 namespace gelatin::gpu {

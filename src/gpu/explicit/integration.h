@@ -2,7 +2,7 @@
 
 #include "gl/program.h"
 #include "gpu/drive/sum_loads.h"
-#include "gpu/explicit/find_volume_stresses.h"
+#include "gpu/elasticity/find_volume_stresses.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
 #include "model/explicit/explicit_scheme.h"

@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "gelatin/pull.h"
 #include "gelatin/views.h"
+#include "gpu/support/implicit_scenarios.h"
 #include "mesh/shapes.h"
 #include "mesh/surface_file.h"
 #include "render/frame_grabber.h"
@@ -255,6 +256,7 @@ std::vector<ShortRun> short_runs() {
         {"contact, neo-Hookean", both(contact, neo_hookean)},
         {"contact, apart", contact_apart, start_again, true},
         {"contact, asleep", at_rest, fall_asleep},
+        {"the implicit step", nothing, [](Simulator&) { run_implicit_programs(); }},
         {"drawn from the CPU", nothing, start_again, true, Backend::cpu},
         {"painted", painted, start_again, true},
         {"painted, drawn from the CPU", painted, start_again, true, Backend::cpu},

@@ -1,9 +1,9 @@
-#include "gpu/explicit/find_volume_stresses.h"
+#include "gpu/elasticity/find_volume_stresses.h"
 
 namespace gelatin::gpu {
 
 FindVolumeStresses::FindVolumeStresses(const Model& model)
-    : program_(gl::Program::compute("sim/explicit/find_volume_stresses.comp")),
+    : program_(gl::Program::compute("sim/elasticity/find_volume_stresses.comp")),
       stresses_(model.positions.size()),
       stress_texels_(stresses_, gl::TexelFormat::r32f) {}
 

@@ -8,7 +8,7 @@
 namespace gelatin::gpu {
 
 /// The volume term's stress around each node, for explicit solvers:
-/// shaders/sim/explicit/find_volume_stresses.comp. CPU twin: cpu::find_volume_stresses.
+/// shaders/sim/elasticity/find_volume_stresses.comp. CPU twin: cpu::find_volume_stresses.
 class FindVolumeStresses {
 public:
     /// @pre the model has a volume term
