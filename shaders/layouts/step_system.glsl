@@ -15,7 +15,7 @@ struct ResidualSums {    // 32 bytes
     vec4  force;             // of the residual r [N]; w: r . z, with z by the nodes' own blocks [J]
     vec4  moment;            // about the body's centre [N m]
 };
-// Of conjugate gradients, before an iteration.
+// Of a body's conjugate gradients, before an iteration.
 struct SolveState {      // 16 bytes
     float lack;              // r . z [J]
     uint  is_done;

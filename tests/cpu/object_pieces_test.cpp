@@ -20,7 +20,8 @@ TEST(ObjectPieces, JoinWhatEachObjectHas) {
         return std::accumulate(values.begin() + piece.range.first, values.begin() + piece.range.end(), 0);
     };
     std::vector<int> sums{1, 0, 7, 0, 0};
-    cpu::ObjectPieces(ranges).gather<int>(sums, sum_of, [](int& sum, int more) { sum += more; });
+    cpu::ObjectPieces(ranges).for_values(sum_of,
+                                         [&](const Piece& piece, int more) { sums[piece.object] += more; });
     const auto sum_to = [](int last) { return last * (last + 1) / 2; };
     EXPECT_THAT(sums, ElementsAre(1 + 6, sum_to(4099) - 6, 7, sum_to(4612) - sum_to(4100), 4613));
 }
@@ -30,15 +31,14 @@ TEST(ObjectPieces, AreJoinedInTheirOrder) {
     const auto start_of = [](const Piece& piece) { return std::to_string(piece.range.first) + ' '; };
     std::vector<std::string> starts(2);
     cpu::ObjectPieces(std::vector<Range>{{0, 1100}, {1100, 600}})
-        .gather<std::string>(starts, start_of,
-                             [](std::string& all, const std::string& more) { all += more; });
+        .for_values(start_of,
+                    [&](const Piece& piece, const std::string& more) { starts[piece.object] += more; });
     EXPECT_THAT(starts, ElementsAre("0 512 1024 ", "1100 1612 "));
 }
 
 TEST(ObjectPieces, OfNothingAreNone) {
-    std::vector<int> none;
-    cpu::ObjectPieces().gather<int>(
-        none, [](const Piece&) { return 1; }, [](int&, int) { FAIL(); });
+    cpu::ObjectPieces(std::vector<Range>{})
+        .for_values([](const Piece&) { return 1; }, [](const Piece&, int) { FAIL(); });
 }
 
 }  // namespace

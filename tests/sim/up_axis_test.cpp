@@ -58,7 +58,7 @@ TEST(UpAxis, DoesNotChangeTheMotion) {
     for (const std::string response : {"contact", "restore"})
         EXPECT_LT(difference(response, 0), 1e-6) << response;
     EXPECT_LT(difference("contact", 20), 1e-3);
-    EXPECT_LT(difference("restore", 10), 1e-6);  // until then
+    EXPECT_LT(difference("restore", 7), 1e-6);  // until then
     EXPECT_LT(difference("restore", 20), 1e-2);
 }
 

@@ -1,12 +1,10 @@
-// The next direction, z + b p, with the rigid level in z; whether no body lacks more of its least energy than it may ends the
-// solve. With FINISH: what was found becomes the displacement, and the rigid level's last answer with it.
-// CPU twin: gelatin::cpu::StepSystem::conjugate_gradients. Parity: tests/gpu/implicit/step_system_test.cpp.
+// The next direction, z + b p, with the rigid level in z; a body that lacks no more of its least energy than it may is done. With FINISH: what was found becomes the displacement, and the rigid level's last answer with it.
+// CPU twin: gelatin::cpu::IslandSolve::conjugate_gradients. Parity: tests/gpu/implicit/step_system_test.cpp.
 #include "sim/implicit/solve_system.glsl"
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer positions;       // xyz [m]
 uniform samplerBuffer bodies;          // StepBody, three texels each
-uniform usamplerBuffer chunk_starts;   // of each object, and the end
 layout(std430) readonly buffer Sums { ResidualSums sums[]; };
 
 // A rigid motion of a body for a force and moment, about its centre.
@@ -52,45 +50,27 @@ void main() {
 uniform samplerBuffer preconditioned;  // z [m]
 layout(std430) buffer Directions { vec4 directions[]; };  // p [m]
 layout(std430) buffer States { SolveState states[]; };
-uniform uint object_count;
 uniform uint is_first;  // there is no direction yet
-shared float lacks[64];
-shared uint misses[64];
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count) return;
-    bool writes_state = c == 0u && lane == 0u;
+    uvec4 chunk = texelFetch(chunks, int(c));
+    bool writes_state = lane == 0u && c == texelFetch(chunk_starts, int(chunk.x)).x;
     SolveState state = SolveState(0.0, 0u, 0u, 0u);
-    if (is_first == 0u) state = states[turn];
+    if (is_first == 0u) state = states[state_before(chunk.x)];
     if (state.is_done != 0u) {
-        if (writes_state) states[1u - turn] = state;
+        if (writes_state) states[state_after(chunk.x)] = state;
         return;
     }
-    float lack = 0.0;
-    uint missing = 0u;  // bodies that lack more than they may
-    for (uint o = lane; o < object_count; o += 64u) {
-        Motion motion = motion_of(o);
-        lack += motion.lack;
-        if (!(motion.lack <= texelFetch(bodies, 3 * int(o) + 1).w)) ++missing;
-    }
-    lacks[lane] = lack;
-    misses[lane] = missing;
-    for (uint half_ = 32u; half_ > 0u; half_ /= 2u) {
-        barrier();
-        if (lane >= half_) continue;
-        lacks[lane] += lacks[lane + half_];
-        misses[lane] += misses[lane + half_];
-    }
-    barrier();
-    lack = lacks[0];
-    // One iteration is made in any case: what elements exert counts, however short the part.
-    bool is_done = !(lack > 0.0) || (is_first == 0u && misses[0] == 0u) || state.is_stuck != 0u;
-    if (writes_state)
-        states[1u - turn] = SolveState(lack, is_done ? 1u : 0u, 0u, state.iterations + (is_first == 0u ? 1u : 0u));
-    float b = is_first == 0u ? lack / state.lack : 0.0;
-    uvec4 chunk = texelFetch(chunks, int(c));
     Motion motion = motion_of(chunk.x);
+    float lack = motion.lack, enough = texelFetch(bodies, 3 * int(chunk.x) + 1).w;
+    // One iteration is made in any case: what elements exert counts, however short the part.
+    bool is_done = !(lack > 0.0) || (is_first == 0u && lack <= enough) || state.is_stuck != 0u;
+    if (writes_state)
+        states[state_after(chunk.x)] =
+            SolveState(lack, is_done ? 1u : 0u, 0u, state.iterations + (is_first == 0u ? 1u : 0u));
+    float b = is_first == 0u ? lack / state.lack : 0.0;
     vec3 center = texelFetch(bodies, 3 * int(chunk.x)).xyz;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
         vec3 p = vec3(0.0);

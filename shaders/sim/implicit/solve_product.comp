@@ -1,5 +1,5 @@
 // A p for the direction p of an iteration, and p . A p by chunk.
-// CPU twin: gelatin::cpu::StepSystem::multiply_direction. Parity: tests/gpu/implicit/step_system_test.cpp.
+// CPU twin: gelatin::cpu::IslandSolve::multiply_direction. Parity: tests/gpu/implicit/step_system_test.cpp.
 #define PRODUCTS
 #include "sim/implicit/half_edges.glsl"
 #include "sim/implicit/solve_system.glsl"
@@ -12,8 +12,9 @@ shared float parts[64];
 
 void main() {
     uint c = group_index();
-    if (c >= chunk_count || states[turn].is_done != 0u) return;
+    if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
+    if (states[state_before(chunk.x)].is_done != 0u) return;
     uint lane = gl_LocalInvocationID.x;
     float sum = 0.0;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {

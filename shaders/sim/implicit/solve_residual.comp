@@ -1,6 +1,6 @@
 // The residual r after a step along the direction p, and what the nodes' own blocks make of it, z; with the sums over chunks that
 // the rigid level needs. With BEGIN: the residual where the solve begins.
-// CPU twin: gelatin::cpu::StepSystem::precondition. Parity: tests/gpu/implicit/step_system_test.cpp.
+// CPU twin: gelatin::cpu::IslandSolve::precondition. Parity: tests/gpu/implicit/step_system_test.cpp.
 #ifdef BEGIN
 #define PRODUCTS
 #include "sim/implicit/half_edges.glsl"
@@ -33,10 +33,11 @@ vec3 residual_at(uint n, float inertia) {
 #else
 float length_of_step = 0.0;
 
-// How far along p the objective falls. The same in all work groups.
-void find_length_of_step(uint lane) {
+// How far along p the objective falls. The same in all work groups of an object.
+void find_length_of_step(uint object, uint lane) {
+    uint first = texelFetch(chunk_starts, int(object)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
     float sum = 0.0;
-    for (uint k = lane; k < chunk_count; k += 64u) sum += curvatures[k];
+    for (uint k = first + lane; k < end; k += 64u) sum += curvatures[k];
     forces[lane].x = sum;
     for (uint half_ = 32u; half_ > 0u; half_ /= 2u) {
         barrier();
@@ -45,8 +46,9 @@ void find_length_of_step(uint lane) {
     barrier();
     float curvature = forces[0].x;
     barrier();
-    length_of_step = curvature > 0.0 ? states[turn].lack / curvature : 0.0;
-    if (!(curvature > 0.0) && group_index() == 0u && lane == 0u) states[turn].is_stuck = 1u;
+    uint state = state_before(object);
+    length_of_step = curvature > 0.0 ? states[state].lack / curvature : 0.0;
+    if (!(curvature > 0.0) && group_index() == first && lane == 0u) states[state].is_stuck = 1u;
 }
 
 vec3 residual_at(uint n, float inertia) {
@@ -58,11 +60,11 @@ vec3 residual_at(uint n, float inertia) {
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count) return;
-#ifndef BEGIN
-    if (states[turn].is_done != 0u) return;
-    find_length_of_step(lane);
-#endif
     uvec4 chunk = texelFetch(chunks, int(c));
+#ifndef BEGIN
+    if (states[state_before(chunk.x)].is_done != 0u) return;
+    find_length_of_step(chunk.x, lane);
+#endif
     vec3 center = texelFetch(bodies, 3 * int(chunk.x)).xyz;
     vec4 force = vec4(0.0);
     vec3 moment = vec3(0.0);

@@ -47,10 +47,14 @@ public:
 
     void add_springs() {
         const SpringIncidence& incidence = model_.incidence;
-        for (std::uint32_t first = 0; first < arrays_.node_count; first += kGroup) {
-            const std::uint32_t count = std::min(kGroup, arrays_.node_count - first);
+        for (const ModelObject& object : model_.objects)
+            for (std::uint32_t first = object.nodes.first; first < object.nodes.end(); first += kGroup)
+                arrays_.groups.push_back({first, std::min(kGroup, object.nodes.end() - first)});
+        for (const auto& [first, count] : arrays_.groups) {
             const auto start = static_cast<std::uint32_t>(arrays_.springs.size());
             arrays_.spring_starts.push_back(start);
+            arrays_.groups_of_nodes.resize(first + count,
+                                           static_cast<std::uint32_t>(arrays_.spring_starts.size() - 1));
             for (std::uint32_t r = 0; r < count; ++r) {
                 std::size_t at = start;
                 for (std::uint32_t e = incidence.starts[first + r]; e < incidence.starts[first + r + 1];

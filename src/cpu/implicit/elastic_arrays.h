@@ -49,7 +49,8 @@ struct EdgeColumns {
 };
 
 /// What ElasticSystem<float> reads and writes, with nodes, tets and edges in groups of kGroup, one in each
-/// lane. Springs stay half springs. What tets add to K is summed by edge, as a matrix M between two nodes:
+/// lane; nodes of one object. Springs stay half springs. What tets add to K is summed by edge, as a matrix M
+/// between two nodes:
 ///   (K d)_n = sum over edges of M_nj (d_n - d_j),
 /// which needs none for single nodes, since no element resists translation. Tets of springs come first, then
 /// neo-Hookean ones, each padded with tets that resist nothing; so do their edges.
@@ -64,6 +65,8 @@ struct ElasticArrays {
     std::uint32_t node_count;
     bool is_damped, has_volume_term;
 
+    std::vector<Range> groups;  ///< of nodes of one object, up to kGroup
+    std::vector<std::uint32_t> groups_of_nodes;
     std::vector<std::uint32_t> spring_starts;  ///< of each group of nodes, and the end
     std::vector<LinearSprings> springs;
     std::vector<SpringLaws> spring_laws;

@@ -25,7 +25,7 @@ void sum_edges(std::size_t group, ElasticArrays& arrays);
 /// The springs of a group of nodes, their forces and what K has on its diagonal.
 void linearise_nodes(const ElasticStart& start, std::size_t group, ElasticArrays& arrays, Vec3<float>* forces,
                      SymmetricMatrix<float>* diagonal);
-/// K d of some nodes. @param displacements d, xyz; whole groups @param product shape [nodes]
+/// K d of some nodes. @param displacements d, xyz; shape [nodes], like the product
 void multiply_nodes(const Range& nodes, const ElasticArrays& arrays, const Vec4<float>* displacements,
                     Vec3<float>* product);
 

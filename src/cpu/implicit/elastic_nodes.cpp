@@ -56,15 +56,20 @@ HWY_INLINE Row part_of(Row row) {
 }
 #endif
 
+// The last one in lanes without a node.
+HWY_INLINE IndexColumn nodes_of(const Range& group) {
+    IndexColumn nodes;
+    for (std::uint32_t l = 0; l < kGroup; ++l) nodes[l] = group.first + std::min(l, group.count - 1);
+    return nodes;
+}
+
 // A damper over a step makes of a spring another one, as cpu::damped_spring says.
 HWY_INLINE TermLanes linearise_springs(Lanes d, const ElasticStart& start, std::size_t group,
                                        std::uint32_t row, ElasticArrays& arrays) {
     const float *positions = &start.positions[0].x, *velocities = &start.velocities[0].x;
-    IndexColumn nodes;
-    for (std::uint32_t l = 0; l < kLanes; ++l)
-        nodes[l] = std::min(static_cast<std::uint32_t>(kGroup * group) + row + l, arrays.node_count - 1);
-    const Columns self = load_nodes(d, positions, nodes.data());
-    const FloatLanes own_time = load_nodes(d, velocities, nodes.data()).w;
+    const IndexColumn nodes = nodes_of(arrays.groups[group]);
+    const Columns self = load_nodes(d, positions, &nodes[row]);
+    const FloatLanes own_time = load_nodes(d, velocities, &nodes[row]).w;
     TermLanes terms;
     for (std::uint32_t b = arrays.spring_starts[group]; b < arrays.spring_starts[group + 1]; ++b) {
         LinearSprings& springs = arrays.springs[b];
@@ -106,7 +111,7 @@ HWY_FLATTEN void node_group(const ElasticStart& start, std::size_t group, Elasti
             hn::StoreU(parts[k].z.v, d, &lanes[3 * k + 2][row]);
         }
     }
-    const std::size_t first = kGroup * group, end = std::min<std::size_t>(first + kGroup, arrays.node_count);
+    const std::size_t first = arrays.groups[group].first, end = arrays.groups[group].end();
     for (std::size_t n = first; n < end; ++n) {
         const auto part = [&](std::size_t k) { return lanes[k][n - first]; };
         glm::vec3 force(part(0), part(1), part(2)), on(part(3), part(4), part(5)),
@@ -137,14 +142,14 @@ HWY_FLATTEN void node_group(const ElasticStart& start, std::size_t group, Elasti
     }
 }
 
-HWY_INLINE void product_group(const Range& nodes, std::size_t group, const ElasticArrays& arrays,
+HWY_INLINE void product_group(const Range& wanted, std::size_t group, const ElasticArrays& arrays,
                               const float* displacements, glm::vec3* product) {
     const Lanes d;
     HWY_ALIGN float rows[4 * kGroup];
-    const std::size_t first = kGroup * group;
+    const Range& nodes = arrays.groups[group];
+    const IndexColumn own = nodes_of(nodes);
     for (std::uint32_t row = 0; row < kGroup; row += kLanes) {
-        const Columns self =
-            load_columns(d, [&](std::size_t l) { return displacements + 4 * (first + row + l); });
+        const Columns self = load_nodes(d, displacements, &own[row]);
         Vec3Lanes sum(FloatLanes(0.0f));
         for (std::uint32_t b = arrays.spring_starts[group]; b < arrays.spring_starts[group + 1]; ++b) {
             const LinearSprings& springs = arrays.springs[b];
@@ -156,9 +161,8 @@ HWY_INLINE void product_group(const Range& nodes, std::size_t group, const Elast
         }
         hn::StoreInterleaved4(sum.x.v, sum.y.v, sum.z.v, hn::Zero(d), d, rows + 4 * row);
     }
-    for (std::size_t n = std::max<std::size_t>(first, nodes.first);
-         n < std::min<std::size_t>(first + kGroup, nodes.end()); ++n) {
-        Row x = load_row(rows + 4 * (n - first)), y = row_of(0.0f), z = row_of(0.0f);
+    for (std::size_t n = std::max(nodes.first, wanted.first); n < std::min(nodes.end(), wanted.end()); ++n) {
+        Row x = load_row(rows + 4 * (n - nodes.first)), y = row_of(0.0f), z = row_of(0.0f);
         if (arrays.has_matrices) {
             const Row self = load_row(displacements + 4 * n);
             for (std::uint32_t e = arrays.half_edge_starts[n]; e < arrays.half_edge_starts[n + 1]; ++e) {
@@ -177,7 +181,9 @@ HWY_INLINE void product_group(const Range& nodes, std::size_t group, const Elast
 
 HWY_FLATTEN void product_range(const Range& nodes, const ElasticArrays& arrays,
                                const glm::vec4* displacements, glm::vec3* product) {
-    for (std::size_t g = nodes.first / kGroup; kGroup * g < nodes.end(); ++g)
+    if (nodes.count == 0) return;
+    const std::size_t end = arrays.groups_of_nodes[nodes.end() - 1] + 1;
+    for (std::size_t g = arrays.groups_of_nodes[nodes.first]; g < end; ++g)
         product_group(nodes, g, arrays, &displacements[0].x, product);
 }
 

@@ -195,16 +195,16 @@ void ElasticSystem<Real>::linearise_neo_hookean(std::span<const Vec4<Real>> posi
 }
 
 template <class Real>
-void ElasticSystem<Real>::begin_product() {
+void ElasticSystem<Real>::begin_product(const ModelObject& body) {
     const Model& model = *model_;
     const auto at = [&](std::uint32_t n) { return Vec3<Real>(displacements[n]); };
-    for_each_index(model.tets.size(), [&](std::size_t t) {
+    for_each_index(body.tets, [&](std::uint32_t t) {
         Real sum = 0;
         for (int c = 0; c < 4; ++c)
-            sum += glm::dot(slopes_[4 * t + static_cast<std::size_t>(c)], at(model.tets[t][c]));
+            sum += glm::dot(slopes_[4 * t + static_cast<std::uint32_t>(c)], at(model.tets[t][c]));
         tet_values_[t] = slope_weights_[t] * sum;
     });
-    for_each_index(neo_hookean_.size(), [&](std::size_t t) {
+    for_each_index(body.neo_hookean_tets, [&](std::uint32_t t) {
         const NeoHookeanTet& tet = model.neo_hookean_tets[t];
         const TetStiffness& k = neo_hookean_[t];
         const Mat3<Real> df =
@@ -251,10 +251,10 @@ void ElasticSystem<Real>::multiply(const Range& nodes, std::span<Vec3<Real>> pro
 template class ElasticSystem<double>;
 
 ElasticSystem<float>::ElasticSystem(std::shared_ptr<const Model> model)
-    : displacements((model->node_count() + kGroup - 1) / kGroup * kGroup),
+    : displacements(model->node_count()),
       model_(std::move(model)),
       arrays_(*model_),
-      left_out_nodes_(arrays_.spring_starts.size() - 1),
+      left_out_nodes_(arrays_.groups.size()),
       left_out_tets_(arrays_.tets.size()),
       forces_(model_->node_count()),
       diagonal_(model_->node_count()) {}
@@ -262,13 +262,10 @@ ElasticSystem<float>::ElasticSystem(std::shared_ptr<const Model> model)
 void ElasticSystem<float>::leave_out(std::span<const std::uint8_t> asleep) {
     const std::vector<std::uint32_t> object_of = objects_of_nodes(*model_);
     const auto is_asleep = [&](std::uint32_t node) {
-        return node >= object_of.size() || (object_of[node] < asleep.size() && asleep[object_of[node]] != 0);
+        return object_of[node] < asleep.size() && asleep[object_of[node]] != 0;
     };
-    for (std::size_t g = 0; g < left_out_nodes_.size(); ++g) {
-        left_out_nodes_[g] = 1;
-        for (std::size_t n = kGroup * g; n < kGroup * (g + 1); ++n)
-            if (!is_asleep(static_cast<std::uint32_t>(n))) left_out_nodes_[g] = 0;
-    }
+    for (std::size_t g = 0; g < left_out_nodes_.size(); ++g)
+        left_out_nodes_[g] = is_asleep(arrays_.groups[g].first) ? 1 : 0;
     for (std::size_t g = 0; g < left_out_tets_.size(); ++g) {
         const auto& nodes = arrays_.tets[g].nodes[0];
         left_out_tets_[g] = std::all_of(std::begin(nodes), std::end(nodes), is_asleep) ? 1 : 0;
@@ -298,7 +295,7 @@ void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
         std::any_of(arrays_.resists.begin(), arrays_.resists.end(), [](auto r) { return r != 0; });
     if (arrays_.has_matrices)
         for_each_group(arrays_.edges.size(), [&](std::size_t g) { sum_edges(g, arrays_); });
-    for_each_group(arrays_.spring_starts.size() - 1, [&](std::size_t g) {
+    for_each_group(arrays_.groups.size(), [&](std::size_t g) {
         if (left_out_nodes_[g] == 0) linearise_nodes(start, g, arrays_, forces_.data(), diagonal_.data());
     });
 }

@@ -34,10 +34,10 @@ public:
     /// The 3 x 3 blocks of K on its diagonal [N/m], shape [nodes].
     const std::vector<SymmetricMatrix<Real>>& diagonal() const { return diagonal_; }
 
-    /// d, of which products are made: xyz [m], shape [nodes] and somewhat more.
+    /// d, of which products are made: xyz [m], shape [nodes].
     std::vector<Vec4<Real>> displacements;
-    /// To be called for each d, before its products.
-    void begin_product();
+    /// To be called for each d and body, before its products.
+    void begin_product(const ModelObject& body);
     /// K d of some nodes. @param product output [N], shape [nodes]
     void multiply(const Range& nodes, std::span<Vec3<Real>> product) const;
 
@@ -89,7 +89,7 @@ public:
     const std::vector<Vec3<float>>& forces() const { return forces_; }
     const std::vector<SymmetricMatrix<float>>& diagonal() const { return diagonal_; }
     std::vector<Vec4<float>> displacements;
-    void begin_product() {}
+    void begin_product(const ModelObject& /*body*/) {}
     void multiply(const Range& nodes, std::span<Vec3<float>> product) const;
 
 private:

@@ -97,7 +97,7 @@ void Paces<Real>::find(const StepSystem<Real>& system, std::span<const std::uint
     for (std::size_t r = 0; r < system.rows.size(); ++r) {
         const ContactRow<Real>& row = system.rows[r];
         const auto force = static_cast<double>(row.pressing(relative<Real>(row, system.displacements)));
-        const auto speed = static_cast<double>(glm::dot(row.normal, system.rigid.relative(r, motions)));
+        const auto speed = static_cast<double>(glm::dot(row.normal, system.rigid.relative(row, motions)));
         for (const std::uint32_t object : {row.object, row.other}) {
             if (object == kNoNode || !model_->is_body(object)) continue;
             pressing[object] += force;

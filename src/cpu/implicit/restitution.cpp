@@ -65,8 +65,8 @@ void Restitution<Real>::note(const Step& step, const RigidLevel<Real>& rigid, co
         meeting.held += side * impulse * held;
         Pressing& pressing = meeting.pressing;
         pressing.force += force;
-        pressing.before += force * (apart + glm::dot(normal, glm::dvec3(rigid.relative(r, before))));
-        pressing.after += force * (apart + glm::dot(normal, glm::dvec3(rigid.relative(r, after))));
+        pressing.before += force * (apart + glm::dot(normal, glm::dvec3(rigid.relative(row, before))));
+        pressing.after += force * (apart + glm::dot(normal, glm::dvec3(rigid.relative(row, after))));
     }
 }
 

@@ -9,23 +9,26 @@
 #include "cpu/implicit/elastic_system.h"
 #include "cpu/implicit/rigid_level.h"
 #include "cpu/nodes.h"
+#include "cpu/object_pieces.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
 
-/// What solving a step has cost.
+/// What solving a step has cost, all islands together.
 struct SolveCounts {
-    int products = 0;       ///< with the matrix of all nodes
+    int products = 0;       ///< with the matrix of all nodes of an island
     int iterations = 0;     ///< of conjugate gradients
     int rigid_rounds = 0;   ///< Newton's method on rigid motions
     int line_searches = 0;  ///< that shortened a step
+
+    SolveCounts& operator+=(const SolveCounts& more);
 };
 
 /// The displacements d of a step as the least of
 ///   sum_i m_i / (2 h^2) |x_i + d_i - y_i|^2 + d^T K d / 2 - f^T d + sum of rows,
-/// with elements to second order (ElasticSystem), and contacts by their law, friction among it. Newton's
-/// method: first on rigid motions alone (RigidLevel), then on all nodes, with conjugate gradients
-/// preconditioned by both, then on rigid motions again until all bodies are in balance.
+/// with elements to second order (ElasticSystem), and contacts by their law, friction among it. It falls
+/// apart into islands, bodies with rows in common, and each is solved by itself (IslandSolve): none waits for
+/// another, and small ones stay in the cache of one core.
 template <class Real>
 class StepSystem {
 public:
@@ -43,41 +46,33 @@ public:
 
     /// @param asleep bodies whose nodes are all held
     void leave_out(std::span<const std::uint8_t> asleep);
-    /// @pre rigid.begin was called
+    /// Rows come into the order of islands. @pre rigid.begin was called
     void solve();
     /// Of elements, at the displacements [N], shape [nodes].
     std::vector<Vec3<Real>> elastic_forces();
 
 private:
+    template <class>
+    friend class IslandSolve;
     using Field = std::vector<Vec3<Real>>;
+    // Bodies that are awake, ascending, and their rows.
+    struct Island {
+        std::vector<std::uint32_t> bodies;
+        Range rows{0, 0};
+    };
 
+    std::vector<Island> find_islands();
     void index_rows();
-    template <class ForceOf>
-    void find_row_forces(const ForceOf& force_of);
-    Vec3<Real> of_rows(std::uint32_t node) const;
-    void find_base_residual();
-    void find_slips();
-    void find_tangents();
-    void find_chords(std::span<const Vec3<Real>> expected);
-    void set_limits();
-    void prepare_preconditioner(bool only_rows);
-    template <class Update>
-    double precondition(const Update& update, bool& is_enough);
-    double multiply_direction();
-    int conjugate_gradients(int count, double forcing);
-    double line_search(std::span<const Vec3<Real>> changes, double base, double curvature);
-    bool is_balanced(double tolerance, std::span<const Motion> forces) const;
-    void rigid_newton();
-    bool newton_step(int most_iterations, double forcing, bool is_first);
+    void begin_product();
 
     std::shared_ptr<const Model> model_;
-    ObjectPieces pieces_, awake_;                          // of bodies' nodes; of those that move
+    ObjectPieces pieces_;                                  // of nodes
+    std::vector<std::uint8_t> asleep_;                     // bodies
     std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place
     std::vector<RowTangent<Real>> tangents_;
-    std::vector<Vec3<Real>> row_forces_, slips_;         // slips: s of rows, by displacements
+    Field row_forces_, slips_;                           // slips: s of rows, by displacements
     std::vector<SymmetricMatrix<Real>> inverse_blocks_;  // of nodes
     Field base_, residual_, step_, product_, z_;         // base: loads - A d, without rows
-    std::vector<Motion> rigid_z_;                        // what z has beside z_, of the rigid level
 };
 
 }  // namespace gelatin::cpu

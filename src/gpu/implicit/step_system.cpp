@@ -20,7 +20,7 @@ StepSystem::StepSystem(const Model& model)
       finish_program_(gl::Program::compute("sim/implicit/solve_direction.comp", {"FINISH"})),
       object_count_(static_cast<std::uint32_t>(model.objects.size())),
       bodies_(model.objects.size()),
-      states_(std::size_t(2)),
+      states_(2 * model.objects.size()),
       steps_(model.positions.size()),
       residuals_(model.positions.size()),
       preconditioned_(model.positions.size()),
@@ -48,6 +48,7 @@ void StepSystem::bind_buffers() const {
                                        &direction_program_, &product_program_, &finish_program_}) {
         program->bind("chunks", chunks_);
         program->set("chunk_count", chunk_count_);
+        program->set("object_count", object_count_);
     }
     for (const gl::Program* program : {&sum_program_, &begin_program_, &residual_program_,
                                        &direction_program_, &product_program_, &finish_program_})
@@ -65,7 +66,8 @@ void StepSystem::bind_buffers() const {
     }
     for (const gl::Program* program : {&residual_program_, &direction_program_, &product_program_})
         program->bind("States", states_);
-    for (const gl::Program* program : {&body_program_, &direction_program_, &finish_program_})
+    for (const gl::Program* program : {&body_program_, &begin_program_, &residual_program_,
+                                       &direction_program_, &product_program_, &finish_program_})
         program->bind("chunk_starts", chunk_starts_);
     for (const gl::Program* program : {&residual_program_, &product_program_})
         program->bind("Curvatures", curvatures_);
@@ -82,7 +84,6 @@ void StepSystem::bind_buffers() const {
     product_program_.bind("Products", products_);
     direction_program_.bind("Directions", elastic.displacements);
     direction_program_.bind("preconditioned", preconditioned_texels_);
-    direction_program_.set("object_count", object_count_);
     finish_program_.bind("steps", step_texels_);
     finish_program_.bind("Displacements", displacements);
 }
@@ -118,11 +119,12 @@ void StepSystem::solve(const NodeBuffers& at) const {
     dispatch(finish_program_);
 }
 
-SolveState StepSystem::state() const {
-    std::vector<SolveState> states(2);
+std::vector<SolveState> StepSystem::states() const {
+    std::vector<SolveState> states(states_.size());
     gl::barrier(gl::Barrier::buffer_update);
     states_.download(states);
-    return states[0];  // an even number of iterations
+    states.resize(object_count_);  // after an even number of iterations
+    return states;
 }
 
 }  // namespace gelatin::gpu

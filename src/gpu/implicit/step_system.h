@@ -14,11 +14,11 @@ namespace gelatin::gpu {
 
 /// The displacements d of a step as the least of
 ///   sum_i m_i / (2 h^2) |x_i + d_i - y_i|^2 + d^T K d / 2 - f^T d,
-/// with elements to second order (ElasticSystem), by conjugate gradients preconditioned by the nodes' own
-/// blocks and the rigid motions of bodies: shaders/sim/implicit/solve_bodies.comp, solve_residual.comp,
-/// solve_direction.comp, solve_product.comp. An iteration is three dispatches; what the host does not know is
-/// whether it is needed: one behind the end of the solve does nothing. No contacts so far. CPU twin:
-/// cpu::StepSystem.
+/// with elements to second order (ElasticSystem), of each body by itself, by conjugate gradients
+/// preconditioned by the nodes' own blocks and rigid motions: shaders/sim/implicit/solve_bodies.comp,
+/// solve_residual.comp, solve_direction.comp, solve_product.comp. An iteration is three dispatches; what the
+/// host does not know is whether it is needed: one behind the end of the solve does nothing. No contacts so
+/// far. CPU twin: cpu::StepSystem.
 class StepSystem {
 public:
     explicit StepSystem(const Model& model);
@@ -35,8 +35,8 @@ public:
     /// Ends with the barrier for who reads displacements as storage.
     void solve(const NodeBuffers& at) const;
 
-    /// Of the last solve; blocks until it has ended.
-    SolveState state() const;
+    /// Of each object after the last solve; blocks until it has ended.
+    std::vector<SolveState> states() const;
 
 private:
     void bind_buffers() const;

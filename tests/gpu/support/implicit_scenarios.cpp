@@ -62,7 +62,7 @@ ElasticResult elastic_reference(const Model& model) {
     system.linearise(converted<double>(model.positions), converted<double>(model.velocities), kInverseStep);
     const std::vector<cpu::Vec3<double>> d = random_field<double>(model.node_count(), 1);
     for (std::size_t n = 0; n < d.size(); ++n) system.displacements[n] = glm::dvec4(d[n], 0.0);
-    system.begin_product();
+    for (const ModelObject& body : model.bodies()) system.begin_product(body);
     ElasticResult result;
     result.products.resize(d.size());
     system.multiply({0, model.node_count()}, result.products);
@@ -137,7 +137,8 @@ SolveResult solve_on_gpu(const SolveCase& at) {
     system.elastic.linearise(buffers, nodes, kInverseStep);
     system.solve(nodes);
     SolveResult result;
-    result.iterations = system.state().iterations;
+    result.iterations = 0;
+    for (const SolveState& state : system.states()) result.iterations += state.iterations;
     std::vector<glm::vec4> values(model.node_count());
     system.displacements.download(values);
     result.displacements = xyz_of(values);
