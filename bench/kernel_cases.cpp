@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "bench/threads.h"
 #include "cpu/descent/implicit_solver.h"
@@ -125,7 +126,8 @@ constexpr float kInversePart = 4.0f / static_cast<float>(kFrame);  // [1/s]
 class CpuSystem {
 public:
     explicit CpuSystem(const std::shared_ptr<const Model>& model)
-        : model_(model), loads_(loads_of(*model)), system_(model) {
+        : model_(model), loads_(loads_of(*model)), islands_(model->body_count()), system_(model) {
+        std::iota(islands_.begin(), islands_.end(), 0u);
         for (std::size_t n = 0; n < loads_.size(); ++n) {
             system_.inertia[n] = loads_[n].w;
             system_.loads[n] = glm::vec3(loads_[n]);
@@ -137,12 +139,13 @@ public:
     void solve() {
         std::fill(system_.displacements.begin(), system_.displacements.end(), glm::vec3(0.0f));
         system_.rigid.begin(model_->positions, system_.inertia);
-        system_.solve();
+        system_.solve(islands_);
     }
 
 private:
     std::shared_ptr<const Model> model_;
     std::vector<glm::vec4> loads_;
+    std::vector<std::uint32_t> islands_;  // a body each
     cpu::StepSystem<float> system_;
 };
 

@@ -61,10 +61,11 @@ void main() {
     parts[lane] = own;
     for (uint half_ = 32u; half_ > 0u; half_ /= 2u) {
         barrier();
-        if (lane >= half_) continue;
-        parts[lane].arm += parts[lane + half_].arm;
-        parts[lane].square += parts[lane + half_].square;
-        parts[lane].beside += parts[lane + half_].beside;
+        if (lane < half_) {
+            parts[lane].arm += parts[lane + half_].arm;
+            parts[lane].square += parts[lane + half_].square;
+            parts[lane].beside += parts[lane + half_].beside;
+        }
     }
     if (lane == 0u) sums[c] = parts[0];
 }

@@ -1,4 +1,5 @@
-// The next direction, z + b p, with the rigid level in z; a body that lacks no more of its least energy than it may is done. With FINISH: what was found becomes the displacement, and the rigid level's last answer with it.
+// The next direction, z + b p, with the rigid level in z; a body that lacks no more of its least energy than it may is
+// done. With FINISH: what was found becomes the displacement, and the rigid level's last answer with it.
 // CPU twin: gelatin::cpu::IslandSolve::conjugate_gradients. Parity: tests/gpu/implicit/step_system_test.cpp.
 #include "sim/implicit/solve_system.glsl"
 layout(local_size_x = 64) in;

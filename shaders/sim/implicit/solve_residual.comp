@@ -88,9 +88,10 @@ void main() {
     moments[lane] = vec4(moment, 0.0);
     for (uint half_ = 32u; half_ > 0u; half_ /= 2u) {
         barrier();
-        if (lane >= half_) continue;
-        forces[lane] += forces[lane + half_];
-        moments[lane] += moments[lane + half_];
+        if (lane < half_) {
+            forces[lane] += forces[lane + half_];
+            moments[lane] += moments[lane + half_];
+        }
     }
     if (lane == 0u) sums[c] = ResidualSums(forces[0], moments[0]);
 }

@@ -225,15 +225,13 @@ double IslandSolve<Real>::multiply_direction() {
 template <class Real>
 int IslandSolve<Real>::conjugate_gradients(int count, double forcing) {
     bool is_enough = false;
-    double rz = precondition(
-        [&](std::uint32_t n) {
-            system_.step_[n] = Vec3<Real>(0);
-            return system_.residual_[n];
-        },
-        is_enough);
+    double rz = precondition([&](std::uint32_t n) { return system_.residual_[n]; }, is_enough);
     const double enough_of_all = forcing * rz;
     std::vector<Vec4<Real>>& p = system_.elastic.displacements;
-    nodes_.for_each([&](std::uint32_t n) { p[n] = Vec4<Real>(0); });
+    nodes_.for_each([&](std::uint32_t n) {  // held ones, too
+        p[n] = Vec4<Real>(0);
+        system_.step_[n] = Vec3<Real>(0);
+    });
     Real b = 0;
     int k = 0;
     while (k < count && ((!is_enough && rz > enough_of_all) || (counts_.iterations == 0 && rz > 0.0))) {

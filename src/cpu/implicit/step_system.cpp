@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "core/disjoint_sets.h"
 #include "cpu/implicit/island_solve.h"
 #include "model/for_each_index.h"
 
@@ -27,7 +26,6 @@ StepSystem<Real>::StepSystem(std::shared_ptr<const Model> model)
       displacements(model->node_count()),
       enough(model->objects.size(), 0.0),
       model_(std::move(model)),
-      pieces_(node_ranges(*model_)),
       asleep_(model_->body_count()),
       row_starts_(model_->node_count() + 1),
       inverse_blocks_(model_->node_count()) {
@@ -38,19 +36,19 @@ template <class Real>
 void StepSystem<Real>::leave_out(std::span<const std::uint8_t> asleep) {
     elastic.leave_out(asleep);
     asleep_.assign(asleep.begin(), asleep.end());
+    // Only nodes of bodies that are awake have a step and a direction.
     std::fill(step_.begin(), step_.end(), Vec3<Real>(0));
+    std::fill(elastic.displacements.begin(), elastic.displacements.end(), Vec4<Real>(0));
 }
 
 template <class Real>
-std::vector<typename StepSystem<Real>::Island> StepSystem<Real>::find_islands() {
+std::vector<typename StepSystem<Real>::Island> StepSystem<Real>::sort_by_island(
+    std::span<const std::uint32_t> islands_of_bodies) {
     const auto bodies = static_cast<std::uint32_t>(model_->body_count());
-    DisjointSets sets(bodies);
-    for (const ContactRow<Real>& row : rows)
-        if (row.object < bodies && row.other < bodies) sets.unite(row.object, row.other);
     std::vector<Island> islands;
     std::vector<std::uint32_t> numbers(bodies);
     for (std::uint32_t o = 0; o < bodies; ++o) {
-        const std::uint32_t least = sets.least(o);
+        const std::uint32_t least = islands_of_bodies[o];
         if (least == o) {
             numbers[o] = static_cast<std::uint32_t>(islands.size());
             islands.emplace_back();
@@ -86,30 +84,24 @@ void StepSystem<Real>::index_rows() {
     for (Field* values : {&row_forces_, &slips_}) values->resize(rows.size());
 }
 
-// Of the displacements, for all nodes.
-template <class Real>
-void StepSystem<Real>::begin_product() {
-    for_each_index(displacements.size(),
-                   [&](std::size_t n) { elastic.displacements[n] = Vec4<Real>(displacements[n], 0); });
-    for_each_index(0, model_->body_count(), 1,
-                   [&](std::size_t o) { elastic.begin_product(model_->objects[o]); });
-}
-
 template <class Real>
 std::vector<Vec3<Real>> StepSystem<Real>::elastic_forces() {
-    begin_product();
-    Field forces(displacements.size());
-    pieces_.for_each_piece([&](const ObjectPieces::Piece& piece) {
-        elastic.multiply(piece.range, forces);
-        for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n)
-            forces[n] = elastic.forces()[n] - forces[n];
+    Field forces(displacements.size(), Vec3<Real>(0));
+    for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
+        if (asleep_[o] != 0) return;
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            elastic.displacements[n] = Vec4<Real>(displacements[n], 0);
+        elastic.begin_product(model_->objects[o]);
+        elastic.multiply(nodes, forces);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) forces[n] = elastic.forces()[n] - forces[n];
     });
     return forces;
 }
 
 template <class Real>
-void StepSystem<Real>::solve() {
-    const std::vector<Island> islands = find_islands();
+void StepSystem<Real>::solve(std::span<const std::uint32_t> islands_of_bodies) {
+    const std::vector<Island> islands = sort_by_island(islands_of_bodies);
     index_rows();
     std::vector<SolveCounts> of_islands(islands.size());
     for_each_index(0, islands.size(), 1, [&](std::size_t i) {

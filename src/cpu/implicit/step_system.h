@@ -9,7 +9,6 @@
 #include "cpu/implicit/elastic_system.h"
 #include "cpu/implicit/rigid_level.h"
 #include "cpu/nodes.h"
-#include "cpu/object_pieces.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
@@ -47,8 +46,9 @@ public:
     /// @param asleep bodies whose nodes are all held
     void leave_out(std::span<const std::uint8_t> asleep);
     /// Rows come into the order of islands. @pre rigid.begin was called
-    void solve();
-    /// Of elements, at the displacements [N], shape [nodes].
+    /// @param islands_of_bodies of each body the least one of its island (Islands::of_bodies)
+    void solve(std::span<const std::uint32_t> islands_of_bodies);
+    /// Of elements, at the displacements [N], shape [nodes]; 0 of bodies asleep.
     std::vector<Vec3<Real>> elastic_forces();
 
 private:
@@ -61,12 +61,10 @@ private:
         Range rows{0, 0};
     };
 
-    std::vector<Island> find_islands();
+    std::vector<Island> sort_by_island(std::span<const std::uint32_t> islands_of_bodies);
     void index_rows();
-    void begin_product();
 
     std::shared_ptr<const Model> model_;
-    ObjectPieces pieces_;                                  // of nodes
     std::vector<std::uint8_t> asleep_;                     // bodies
     std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place
     std::vector<RowTangent<Real>> tangents_;

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <vector>
 
+#include "gpu/descent/descent_tables.h"
 #include "model/elasticity/element_edges.h"
 #include "model/elasticity/node_tets.h"
 
@@ -14,15 +15,6 @@ gl::Defines element_defines(const Model& model) {
     if (!model.volume_term.is_empty()) defines.emplace_back("VOLUME");
     if (!model.neo_hookean_tets.empty()) defines.emplace_back("NEO_HOOKEAN");
     return defines;
-}
-
-std::vector<glm::vec4> rests_of_tets(const Model& model) {
-    const std::vector<float>& stiffnesses = model.volume_term.tets;
-    std::vector<glm::vec4> rests;
-    for (std::size_t t = 0; t < model.tet_rests.size(); ++t)
-        rests.emplace_back(model.tet_rests[t].volume, model.tet_rests[t].modulus,
-                           stiffnesses.empty() ? 0.0f : stiffnesses[t], 0.0f);
-    return rests;
 }
 
 std::vector<std::uint32_t> numbers_of_neo_hookean(const Model& model) {
@@ -52,7 +44,7 @@ ElasticSystem::ElasticSystem(const Model& model)
       node_count_(model.node_count()),
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),
       tets_(model.tets, gl::TexelFormat::rgba32ui),
-      tet_rests_(rests_of_tets(model), gl::TexelFormat::rgba32f),
+      tet_rests_(rests_of(model), gl::TexelFormat::rgba32f),
       neo_hookean_tets_(gradients_of_neo_hookean(model), gl::TexelFormat::rgba32f),
       neo_hookean_numbers_(numbers_of_neo_hookean(model), gl::TexelFormat::r32ui),
       tet_rows_(4 * model.tets.size()),

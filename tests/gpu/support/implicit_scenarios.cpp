@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -159,7 +160,9 @@ SolveResult solve_reference(const SolveCase& at) {
     system.iterations = at.iterations;
     system.elastic.linearise(positions, converted<double>(model->velocities), kInverseStep);
     system.rigid.begin(positions, system.inertia);
-    system.solve();
+    std::vector<std::uint32_t> islands(model->body_count());  // a body each
+    std::iota(islands.begin(), islands.end(), 0u);
+    system.solve(islands);
     return {system.displacements, static_cast<std::uint32_t>(system.counts.iterations)};
 }
 
