@@ -91,7 +91,7 @@ TEST_F(StepSystemTest, ForgetsWhatWasSolvedBefore) {
     for (const std::uint8_t asleep : {0, 1}) {
         const std::vector<std::uint8_t> left_out{0, asleep, 0, 0};
         const auto solve_held = [&](cpu::StepSystem<double>& system) {
-            system.leave_out(left_out);
+            if (asleep != 0) system.leave_out(left_out);
             begin(system, 1e-3);
             hold(system, model_->objects[1].nodes);
             return solve(system);
