@@ -1,6 +1,7 @@
 #include "cpu/implicit/step_system.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -56,17 +57,26 @@ std::vector<typename StepSystem<Real>::Island> StepSystem<Real>::sort_by_island(
         numbers[o] = numbers[least];
         if (asleep_[o] == 0) islands[numbers[o]].bodies.push_back(o);
     }
-    const auto island_of = [&](const ContactRow<Real>& row) {
-        return numbers[row.other < bodies ? row.other : row.object];
-    };
-    std::stable_sort(rows.begin(), rows.end(),
-                     [&](const auto& a, const auto& b) { return island_of(a) < island_of(b); });
-    for (const ContactRow<Real>& row : rows) ++islands[island_of(row)].rows.count;
-    std::uint32_t first = 0;
-    for (Island& island : islands) {
-        island.rows.first = first;
-        first += island.rows.count;
+    using Key = std::array<std::uint32_t, 4>;  // island, object, other, row
+    std::vector<Key> keys;
+    for (std::uint32_t r = 0; r < rows.size(); ++r) {
+        const auto& [object, other] = std::pair(rows[r].object, rows[r].other);
+        keys.push_back({numbers[other < bodies ? other : object], object, other, r});
     }
+    std::sort(keys.begin(), keys.end());
+    std::vector<ContactRow<Real>> sorted(rows.size());
+    for (std::uint32_t r = 0; r < rows.size(); ++r) {
+        const auto& [number, object, other, row] = keys[r];
+        sorted[r] = rows[row];
+        Island& island = islands[number];
+        if (island.rows.count == 0) island.rows.first = r;
+        if (island.pairs.empty() || island.pairs.back().object != object ||
+            island.pairs.back().other != other)
+            island.pairs.push_back({object, other, {island.rows.count, 0}});
+        ++island.rows.count;
+        ++island.pairs.back().rows.count;
+    }
+    rows.swap(sorted);
     return islands;
 }
 
@@ -107,7 +117,7 @@ void StepSystem<Real>::solve(std::span<const std::uint32_t> islands_of_bodies) {
     for_each_index(0, islands.size(), 1, [&](std::size_t i) {
         const Island& island = islands[i];
         if (!island.bodies.empty())
-            of_islands[i] = IslandSolve<Real>(*this, island.bodies, island.rows).run();
+            of_islands[i] = IslandSolve<Real>(*this, island.bodies, island.rows, island.pairs).run();
     });
     counts = std::accumulate(of_islands.begin(), of_islands.end(), SolveCounts(),
                              [](SolveCounts sum, const SolveCounts& more) { return sum += more; });

@@ -7,6 +7,7 @@
 
 #include "cpu/implicit/contact_row.h"
 #include "cpu/implicit/elastic_system.h"
+#include "cpu/implicit/island_rows.h"
 #include "cpu/implicit/rigid_level.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
@@ -45,7 +46,7 @@ public:
 
     /// @param asleep bodies whose nodes are all held
     void leave_out(std::span<const std::uint8_t> asleep);
-    /// Rows come into the order of islands. @pre rigid.begin was called
+    /// Rows come into the order of islands and pairs of objects. @pre rigid.begin was called
     /// @param islands_of_bodies of each body the least one of its island (Islands::of_bodies)
     void solve(std::span<const std::uint32_t> islands_of_bodies);
     /// Of elements, at the displacements [N], shape [nodes]; 0 of bodies asleep.
@@ -59,6 +60,7 @@ private:
     struct Island {
         std::vector<std::uint32_t> bodies;
         Range rows{0, 0};
+        std::vector<RowPair> pairs;  // rows: among those of the island
     };
 
     std::vector<Island> sort_by_island(std::span<const std::uint32_t> islands_of_bodies);

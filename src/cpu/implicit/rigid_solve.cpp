@@ -1,0 +1,270 @@
+#include "cpu/implicit/rigid_solve.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "cpu/contact/tuning.h"
+#include "model/for_each_index.h"
+
+namespace gelatin::cpu {
+namespace {
+
+glm::dmat3 matrix_of(const SymmetricMatrix<double>& h) {
+    const glm::dvec3 &d = h.diagonal, &b = h.beside;
+    return {d.x, b.z, b.y, b.z, d.y, b.x, b.y, b.x, d.z};
+}
+
+// m [r], where [r] v = r x v.
+glm::dmat3 times_cross(const glm::dmat3& m, const glm::dvec3& r) {
+    return {m[1] * r.z - m[2] * r.y, m[2] * r.x - m[0] * r.z, m[0] * r.y - m[1] * r.x};
+}
+
+// [r] m
+glm::dmat3 cross_times(const glm::dvec3& r, const glm::dmat3& m) {
+    return {glm::cross(r, m[0]), glm::cross(r, m[1]), glm::cross(r, m[2])};
+}
+
+glm::dvec3 displacement(const Motion& m) {
+    return {m(0), m(1), m(2)};
+}
+glm::dvec3 rotation(const Motion& m) {
+    return {m(3), m(4), m(5)};
+}
+
+double dot(std::span<const Motion> a, std::span<const Motion> b) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
+    return sum;
+}
+
+}  // namespace
+
+template <class Real>
+RigidSolve<Real>::RigidSolve(const Model& model, const RigidLevel<Real>& level,
+                             std::vector<std::uint32_t> bodies, const IslandRows<Real>& rows,
+                             std::span<const RowPair> pairs)
+    : model_(model),
+      level_(level),
+      rows_(rows),
+      bodies_(std::move(bodies)),
+      arms_(rows.count()),
+      pair_of_row_(rows.count()),
+      coupling_starts_(bodies_.size() + 1) {
+    for (const RowPair& pair : pairs) {
+        for (std::uint32_t r = pair.rows.first; r < pair.rows.end(); ++r)
+            pair_of_row_[r] = static_cast<std::uint32_t>(pairs_.size());
+        pairs_.push_back({.bodies = {kNoNode, kNoNode}, .rows = pair.rows});
+        if (pair.object != pair.other) pairs_.back().bodies = {place_of(pair.object), place_of(pair.other)};
+        for (const std::uint32_t b : pairs_.back().bodies)
+            if (b != kNoNode) ++coupling_starts_[b + 1];
+    }
+    std::partial_sum(coupling_starts_.begin(), coupling_starts_.end(), coupling_starts_.begin());
+    couplings_.resize(coupling_starts_.back());
+    std::vector<std::uint32_t> next(coupling_starts_.begin(), coupling_starts_.end() - 1);
+    for (std::uint32_t p = 0; p < pairs_.size(); ++p)
+        for (std::uint32_t side = 0; side < 2; ++side)
+            if (const std::uint32_t b = pairs_[p].bodies[side]; b != kNoNode)
+                couplings_[next[b]++] = {p, side};
+    for_each_index(rows.count(), [&](std::size_t r) {
+        const ContactRow<Real>& row = rows.rows[r];
+        arms_[r] = {glm::dvec3(0.0), glm::dvec3(0.0)};
+        for (std::uint32_t k = 0; k < row.count; ++k) {
+            const std::size_t side = row.weights[k] < Real(0) ? 0 : 1;
+            if (pairs_[pair_of_row_[r]].bodies[side] != kNoNode)
+                arms_[r][side] +=
+                    std::abs(static_cast<double>(row.weights[k])) * glm::dvec3(level_.arm(row.nodes[k]));
+        }
+    });
+}
+
+template <class Real>
+std::uint32_t RigidSolve<Real>::place_of(std::uint32_t object) const {
+    const auto at = std::lower_bound(bodies_.begin(), bodies_.end(), object);
+    return at != bodies_.end() && *at == object ? static_cast<std::uint32_t>(at - bodies_.begin()) : kNoNode;
+}
+
+template <class Real>
+void RigidSolve<Real>::find_matrix() {
+    for_each_index(0, pairs_.size(), 1, [&](std::size_t p) {
+        Pair& pair = pairs_[p];
+        pair = {.bodies = pair.bodies, .rows = pair.rows};
+        if (pair.bodies[0] == kNoNode && pair.bodies[1] == kNoNode) return;
+        for (std::uint32_t r = pair.rows.first; r < pair.rows.end(); ++r) {
+            const SymmetricMatrix<Real>& h = rows_.tangents[r].stiffness;
+            if (!(h.diagonal.x + h.diagonal.y + h.diagonal.z > Real(0))) continue;
+            const glm::dmat3 stiffness = matrix_of({glm::dvec3(h.diagonal), glm::dvec3(h.beside)});
+            pair.stiffness += stiffness;
+            for (std::size_t side = 0; side < 2; ++side) {
+                const glm::dmat3 by_rotation = times_cross(-stiffness, arms_[r][side]);
+                pair.by_rotation[side] += by_rotation;
+                pair.moments[side] += cross_times(arms_[r][side], by_rotation);
+                if (side == 1) pair.across += cross_times(arms_[r][0], by_rotation);
+            }
+        }
+    });
+    diagonal_.resize(count());
+    inverses_.resize(count());
+    for_each_index(0, count(), 8, [&](std::size_t b) {
+        MotionMatrix& own = diagonal_[b] = level_.matrix(bodies_[b]);
+        for (std::uint32_t c = coupling_starts_[b]; c < coupling_starts_[b + 1]; ++c) {
+            const auto& [p, side] = couplings_[c];
+            const Pair& pair = pairs_[p];
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) {
+                    own(i, j) += pair.stiffness[j][i];
+                    own(i, 3 + j) += pair.by_rotation[side][j][i];
+                    own(3 + j, i) += pair.by_rotation[side][j][i];
+                    own(3 + i, 3 + j) += pair.moments[side][j][i];
+                }
+        }
+        inverses_[b] = coupling_starts_[b] == coupling_starts_[b + 1] ? level_.inverse(bodies_[b])
+                                                                      : own.inverse().eval();
+    });
+}
+
+template <class Real>
+std::vector<Motion> RigidSolve<Real>::multiply(std::span<const Motion> motions) const {
+    std::vector<Motion> forces(motions.size());
+    for_each_index(0, motions.size(), 128, [&](std::size_t b) {
+        glm::dvec3 force(0.0), moment(0.0);
+        for (std::uint32_t c = coupling_starts_[b]; c < coupling_starts_[b + 1]; ++c) {
+            const auto& [p, side] = couplings_[c];
+            const Pair& pair = pairs_[p];
+            const std::uint32_t other = pair.bodies[1 - side];
+            if (other == kNoNode) continue;
+            const glm::dvec3 s = displacement(motions[other]), w = rotation(motions[other]);
+            force -= pair.stiffness * s + pair.by_rotation[1 - side] * w;
+            moment -= s * pair.by_rotation[side] + (side == 0 ? pair.across * w : w * pair.across);
+        }
+        forces[b] = diagonal_[b] * motions[b] + motion(force, moment);
+    });
+    return forces;
+}
+
+template <class Real>
+int RigidSolve<Real>::solve(std::span<Motion> motions, double left) const {
+    std::vector<Motion> residual(motions.begin(), motions.end()), z(count());
+    const auto find_z = [&] {
+        for (std::size_t b = 0; b < count(); ++b) z[b] = precondition(b, residual[b]);
+        return dot(residual, z);
+    };
+    double rz = find_z();
+    std::vector<Motion> p = z;
+    std::fill(motions.begin(), motions.end(), Motion::Zero());
+    const double enough = left * rz;
+    int k = 0;
+    while (rz > enough && k < tuning::kMostRigidIterations) {
+        const std::vector<Motion> product = multiply(p);
+        const double curvature = dot(p, product);
+        if (!(curvature > 0.0)) break;
+        ++k;
+        const double a = rz / curvature;
+        for (std::size_t b = 0; b < count(); ++b) {
+            motions[b] += a * p[b];
+            residual[b] -= a * product[b];
+        }
+        const double next = find_z();
+        for (std::size_t b = 0; b < count(); ++b) p[b] = z[b] + next / rz * p[b];
+        rz = next;
+    }
+    return k;
+}
+
+template <class Real>
+void RigidSolve<Real>::add_rows(std::span<Motion> sums) const {
+    std::vector<std::array<Motion, 2>> by_pair(pairs_.size());
+    for_each_index(0, pairs_.size(), 1, [&](std::size_t p) {
+        glm::dvec3 force(0.0), moments[2] = {glm::dvec3(0.0), glm::dvec3(0.0)};
+        for (std::uint32_t r = pairs_[p].rows.first; r < pairs_[p].rows.end(); ++r) {
+            const glm::dvec3 f(rows_.forces[r]);
+            force += f;
+            for (std::size_t side = 0; side < 2; ++side) moments[side] += glm::cross(arms_[r][side], f);
+        }
+        by_pair[p] = {-motion(force, moments[0]), motion(force, moments[1])};
+    });
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+        for (std::size_t side = 0; side < 2; ++side)
+            if (pairs_[p].bodies[side] != kNoNode) sums[pairs_[p].bodies[side]] += by_pair[p][side];
+}
+
+template <class Real>
+Vec3<Real> RigidSolve<Real>::relative(std::size_t row, std::span<const Motion> motions) const {
+    const std::array<std::uint32_t, 2>& bodies = pairs_[pair_of_row_[row]].bodies;
+    glm::dvec3 s(0.0);
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (bodies[side] == kNoNode) continue;
+        const Motion& m = motions[bodies[side]];
+        const glm::dvec3 d = displacement(m) + glm::cross(rotation(m), arms_[row][side]);
+        s += side == 0 ? -d : d;
+    }
+    return Vec3<Real>(s);
+}
+
+// Whether what is left of all forces on each body is no more than a part of what presses it.
+template <class Real>
+bool RigidSolve<Real>::is_balanced(double tolerance, std::span<const Motion> forces) const {
+    std::vector<double> pressing(count(), 0.0);
+    for (const Pair& pair : pairs_) {
+        double sum = 0.0;
+        for (std::uint32_t r = pair.rows.first; r < pair.rows.end(); ++r)
+            sum += static_cast<double>(rows_.rows[r].pressing(rows_.slips[r]));
+        for (const std::uint32_t b : pair.bodies)
+            if (b != kNoNode) pressing[b] += sum;
+    }
+    const double gravity = glm::length(glm::dvec3(model_.gravity));
+    for (std::size_t b = 0; b < count(); ++b) {
+        if (!(pressing[b] > 0.0)) continue;
+        const double weight = gravity * model_.objects[bodies_[b]].mass;
+        const double scale =
+            weight > 0.0 ? std::min(pressing[b], 2.0 * weight) + 0.05 * pressing[b] : pressing[b];
+        if (forces[b].template head<3>().norm() > tolerance * scale) return false;
+    }
+    return true;
+}
+
+// The limits of friction stay as they are until bodies are nearly in balance (Tresca's friction), since what
+// presses before that has little to do with what will.
+template <class Real>
+typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base, double tolerance) {
+    Result result;
+    result.motions.assign(count(), Motion::Zero());
+    std::vector<Vec3<Real>> changes(rows_.count());
+    const auto forces = [&] {
+        rows_.find_forces();
+        std::vector<Motion> sums = base;
+        add_rows(sums);
+        return sums;
+    };
+    for (; result.rounds < tuning::kMostRounds; ++result.rounds) {
+        std::vector<Motion> step = forces();
+        if (is_balanced(tuning::kNearBalance, step)) {
+            rows_.set_limits();
+            step = forces();
+            if (result.rounds > 0 && is_balanced(tolerance, step)) break;
+        }
+        rows_.find_tangents();
+        find_matrix();
+        solve(step, tuning::kRigidForcing);
+        for_each_index(rows_.count(), [&](std::size_t r) { changes[r] = relative(r, step); });
+        std::vector<Motion> resistance(count());
+        for (std::size_t b = 0; b < count(); ++b) resistance[b] = level_.matrix(bodies_[b]) * step[b];
+        const double part = rows_.line_search(changes, dot(step, base), dot(step, resistance));
+        if (part < 1.0) ++result.line_searches;
+        for (std::size_t b = 0; b < count(); ++b) {
+            result.motions[b] += part * step[b];
+            base[b] -= part * resistance[b];
+        }
+        for_each_index(rows_.count(),
+                       [&](std::size_t r) { rows_.slips[r] += static_cast<Real>(part) * changes[r]; });
+    }
+    return result;
+}
+
+template class RigidSolve<float>;
+template class RigidSolve<double>;
+
+}  // namespace gelatin::cpu
