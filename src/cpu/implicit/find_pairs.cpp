@@ -45,6 +45,8 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
       found_((model_->face_trees.levels[0].size() + kLeavesATask - 1) / kLeavesATask) {
     boxes_.nodes.resize(model_->node_count());
     boxes_.edges.resize(model_->surface_parts.edges.size());
+    boxes_.edge_columns = BoxColumns<Real>(boxes_.edges.size());
+    boxes_.face_columns = BoxColumns<Real>(model_->faces.size());
     for (auto* faces : {&boxes_.faces, &boxes_.changed_faces}) faces->resize(model_->faces.size());
     for (auto* trees : {&boxes_.trees, &boxes_.changed}) trees->resize(model_->face_trees.nodes.size());
     std::vector<AxisBox<Real>> faces(model_->faces.size());
@@ -81,9 +83,11 @@ void FindPairs<Real>::update_boxes(std::size_t object, const Paths<Real>& paths)
     for_each_index(faces, [&](std::uint32_t f) {
         const Face& face = model_->faces[f];
         boxes_.faces[f] = hull({face.a, face.b, face.c});
+        boxes_.face_columns.set(f, boxes_.faces[f]);
     });
     for_each_index(Range{first.y, end.y - first.y}, [&](std::uint32_t e) {
         boxes_.edges[e] = hull({parts.edges[e].a, parts.edges[e].b});
+        boxes_.edge_columns.set(e, boxes_.edges[e]);
     });
     const std::uint32_t root = model_->face_trees.roots[object];
     update_tree_boxes<Real>(model_->face_trees, root, boxes_.faces, boxes_.trees);
@@ -118,8 +122,9 @@ void FindPairs<Real>::add_lost(std::uint32_t object, std::span<const LostTets> l
     Own& own = owns_[object];
     for (const LostTets& tets : lost) {
         own.lost.push_back(tets);
-        own.boxes.push_back(kept_.box_of(object, tets));
-        own.all.add(own.boxes.back());
+        const AxisBox<Real> box = kept_.box_of(object, tets);
+        own.boxes.add(box);
+        own.all.add(box);
     }
 }
 
@@ -146,7 +151,7 @@ bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
 
 template <class Real>
 bool FindPairs<Real>::may_meet_itself(std::uint32_t object) const {
-    return finds_own_ && (!kept_.is_convex(object) || !owns_[object].boxes.empty());
+    return finds_own_ && (!kept_.is_convex(object) || owns_[object].boxes.size() > 0);
 }
 
 template <class Real>
@@ -228,16 +233,19 @@ void FindPairs<Real>::search_all(const Paths<Real>& paths, bool changed) {
         pairs_.insert(pairs_.end(), found.of_edges.begin(), found.of_edges.end());
 }
 
-// What a tree has near a leaf; of a body itself, where the lines between them meet lost tets.
+// What a tree has near a leaf; of a body itself, where the lines between them meet lost tets. Edges of two
+// leaves meet in one of both searches.
 // @param changed whether only what has changed is wanted
 template <class Real>
 void FindPairs<Real>::walk(std::uint32_t leaf, std::uint32_t object, const AxisBox<Real>& box, bool changed,
                            Found& found) const {
     const BoxTree& trees = model_->face_trees;
     const std::vector<glm::uvec2>& starts = model_->surface_parts.face_starts;
-    const bool is_own = object == model_->faces[trees.nodes[leaf].first_item].object;
-    const std::size_t lost_count = is_own ? owns_[object].boxes.size() : 0,
-                      listed_count = is_own ? owns_[object].listed : 0;
+    const std::uint32_t own_first = trees.nodes[leaf].first_item,
+                        own_object = model_->faces[own_first].object;
+    const bool is_own = object == own_object;
+    const std::uint32_t lost_count = is_own ? owns_[object].boxes.size() : 0,
+                        listed_count = is_own ? owns_[object].listed : 0;
     const bool is_convex = is_own && kept_.is_convex(object);
     const std::vector<AxisBox<Real>>& tree_boxes =
         changed && lost_count == listed_count ? boxes_.changed : boxes_.trees;
@@ -252,23 +260,42 @@ void FindPairs<Real>::walk(std::uint32_t leaf, std::uint32_t object, const AxisB
         if (node.item_count == 0) continue;
         const bool is_new = lost_count > listed_count && is_kept(owns_[object], listed_count, leaf, other);
         const std::uint32_t first = node.first_item, last = first + node.item_count;
-        for (std::uint32_t f = first; f < last; ++f)
-            if (meet(box, boxes_.faces[f])) found.faces.push_back({f, is_new, boxes_.faces[f]});
-        for (std::uint32_t e = starts[first].y; e < starts[last].y; ++e)
-            if (meet(box, boxes_.edges[e])) found.edges.push_back({e, is_new, boxes_.edges[e]});
+        const auto add = [](std::vector<Range>& ranges, std::uint32_t from, std::uint32_t to) {
+            if (ranges.empty() || ranges.back().end() != from) ranges.push_back({from, 0});
+            ranges.back().count += to - from;
+        };
+        add(found.faces[is_new ? 1 : 0], first, last);
+        if (is_own ? first >= own_first : object > own_object)
+            add(found.edges[is_new ? 1 : 0], starts[first].y, starts[last].y);
     }
 }
 
 // Whether the lines between what two nodes of a tree have meet none of the first `count` boxes round lost
 // tets at the start.
 template <class Real>
-bool FindPairs<Real>::is_kept(const Own& own, std::size_t count, std::uint32_t node,
+bool FindPairs<Real>::is_kept(const Own& own, std::uint32_t count, std::uint32_t node,
                               std::uint32_t other) const {
     AxisBox<Real> lines = rest_boxes_[node];
     lines.add(rest_boxes_[other]);
-    const auto first = own.boxes.begin();
-    return !meet(own.all, lines) || std::none_of(first, first + static_cast<std::ptrdiff_t>(count),
-                                                 [&](const AxisBox<Real>& box) { return meet(box, lines); });
+    return !meet(own.all, lines) || !any_meets(lines, own.boxes, count);
+}
+
+// pair_of(of the leaf, of a range): where boxes meet; of no first node: none.
+template <class Real>
+template <class PairOf>
+void FindPairs<Real>::find_candidates(const BoxColumns<Real>& columns,
+                                      const std::array<std::vector<Range>, 2>& ranges, bool changed,
+                                      const PairOf& pair_of, Found& found) const {
+    found.candidates.clear();
+    for (const bool is_new : {false, true}) {
+        found.meeting.clear();
+        find_meeting(found.boxes, columns, ranges[is_new ? 1 : 0], found.meeting);
+        for (const BoxPair& meeting : found.meeting) {
+            const ContactPair pair = pair_of(meeting.first, meeting.second);
+            if (pair.first != kNoNode && (!changed || is_new || has_changed_node(pair)))
+                found.candidates.push_back(pair);
+        }
+    }
 }
 
 template <class Real>
@@ -293,40 +320,37 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool 
     std::sort(others.begin(), others.end());
     for (const std::uint32_t other : others) {
         const Vec3<Real> motion = motions_[object] - motions_[other];  // beside the other
-        found.faces.clear();
-        found.edges.clear();
+        for (std::vector<Range>& ranges : found.faces) ranges.clear();
+        for (std::vector<Range>& ranges : found.edges) ranges.clear();
         walk(leaf, other, swept(boxes_.trees[leaf], motion), others_alone, found);
         const auto reach = static_cast<float>(surface_->reach(object, other));
-        found.candidates.clear();
-        for (std::uint32_t place = first.x; place < end.x; ++place) {
-            const std::uint32_t n = parts.nodes[place];
-            const AxisBox<Real> box = swept(boxes_.nodes[n], motion);
-            for (const Near& near : found.faces) {
-                const Face& face = model_->faces[near.index];
-                if (!meet(box, near.box) || has_corner(face, n)) continue;
-                const ContactPair pair{{n, face.a, face.b, face.c}, n, near.index, object, other, 1, reach};
-                if (!changed || near.is_new || has_changed_node(pair)) found.candidates.push_back(pair);
-            }
-        }
+        const ContactPair none{{}, kNoNode, 0, 0, 0, 0, 0.0f};
+        found.boxes.clear();
+        for (std::uint32_t place = first.x; place < end.x; ++place)
+            found.boxes.push_back(swept(boxes_.nodes[parts.nodes[place]], motion));
+        find_candidates(
+            boxes_.face_columns, found.faces, changed,
+            [&](std::uint32_t k, std::uint32_t f) {
+                const std::uint32_t n = parts.nodes[first.x + k];
+                const Face& face = model_->faces[f];
+                if (has_corner(face, n)) return none;
+                return ContactPair{{n, face.a, face.b, face.c}, n, f, object, other, 1, reach};
+            },
+            found);
         keep_near(paths, found, found.of_nodes);
         if (other < object) continue;
-        found.candidates.clear();
-        for (std::uint32_t e = first.y; e < end.y; ++e) {
-            const FaceEdge& edge = parts.edges[e];
-            const AxisBox<Real> box = swept(boxes_.edges[e], motion);
-            // Of a body itself, only later ones: they ascend, as in trees.
-            const auto first_near =
-                other == object ? std::partition_point(found.edges.begin(), found.edges.end(),
-                                                       [&](const Near& near) { return near.index <= e; })
-                                : found.edges.begin();
-            for (auto at = first_near; at != found.edges.end(); ++at) {
-                const Near& near = *at;
-                const FaceEdge& to = parts.edges[near.index];
-                if (!meet(box, near.box) || (other == object && share_end(edge, to))) continue;
-                const ContactPair pair{{edge.a, edge.b, to.a, to.b}, e, near.index, object, other, 2, reach};
-                if (!changed || near.is_new || has_changed_node(pair)) found.candidates.push_back(pair);
-            }
-        }
+        found.boxes.clear();
+        for (std::uint32_t e = first.y; e < end.y; ++e) found.boxes.push_back(swept(boxes_.edges[e], motion));
+        find_candidates(
+            boxes_.edge_columns, found.edges, changed,
+            [&](std::uint32_t k, std::uint32_t to) {
+                const std::uint32_t e = first.y + k;
+                const FaceEdge &edge = parts.edges[e], &near = parts.edges[to];
+                // Of a body itself, only later ones.
+                if (other == object && (to <= e || share_end(edge, near))) return none;
+                return ContactPair{{edge.a, edge.b, near.a, near.b}, e, to, object, other, 2, reach};
+            },
+            found);
         keep_near(paths, found, found.of_edges);
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "cpu/collision/axis_box.h"
+#include "cpu/collision/box_columns.h"
 #include "cpu/collision/object_tree.h"
 #include "cpu/contact/contact_pair.h"
 #include "cpu/contact/kept_distances.h"
@@ -79,16 +81,15 @@ private:
     // Of all nodes, faces, edges and nodes of trees, round their motions relative to their object.
     struct Boxes {
         std::vector<AxisBox<Real>> nodes, faces, edges, trees;
+        BoxColumns<Real> face_columns, edge_columns;
         std::vector<AxisBox<Real>> changed_faces, changed;  // of those that have changed; of trees of these
     };
-    struct Near {
-        std::uint32_t index;
-        bool is_new;  // as a body lost something between
-        AxisBox<Real> box;
-    };
     struct Found {
-        std::vector<std::uint32_t> objects;  // near the current leaf
-        std::vector<Near> faces, edges;
+        std::vector<std::uint32_t> objects;              // near the current leaf
+        std::array<std::vector<Range>, 2> faces, edges;  // of leaves near it; of new ones, between which a
+                                                         // body lost something
+        std::vector<AxisBox<Real>> boxes;
+        std::vector<BoxPair> meeting;
         std::vector<ContactPair> candidates;
         std::vector<NearPair<Real>> of_nodes, of_edges;
     };
@@ -96,9 +97,9 @@ private:
     // boxes round lost tets.
     struct Own {
         std::vector<LostTets> lost;
-        std::vector<AxisBox<Real>> boxes;  // of each
-        AxisBox<Real> all;                 // round the boxes
-        std::size_t listed = 0;            // the first boxes, whose pairs are listed
+        BoxColumns<Real> boxes;    // of each
+        AxisBox<Real> all;         // round the boxes
+        std::uint32_t listed = 0;  // the first boxes, whose pairs are listed
     };
     void update_boxes(std::size_t object, const Paths<Real>& paths);
     void find_own(const Paths<Real>& paths);
@@ -110,8 +111,11 @@ private:
     void search(std::uint32_t leaf, const Paths<Real>& paths, bool changed, Found& found) const;
     void walk(std::uint32_t leaf, std::uint32_t object, const AxisBox<Real>& box, bool changed,
               Found& found) const;
+    template <class PairOf>
+    void find_candidates(const BoxColumns<Real>& columns, const std::array<std::vector<Range>, 2>& ranges,
+                         bool changed, const PairOf& pair_of, Found& found) const;
     bool may_meet_itself(std::uint32_t object) const;
-    bool is_kept(const Own& own, std::size_t count, std::uint32_t node, std::uint32_t other) const;
+    bool is_kept(const Own& own, std::uint32_t count, std::uint32_t node, std::uint32_t other) const;
     void keep_near(const Paths<Real>& paths, const Found& found, std::vector<NearPair<Real>>& kept) const;
 
     std::shared_ptr<const Model> model_;
