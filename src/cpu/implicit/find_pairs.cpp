@@ -280,21 +280,16 @@ bool FindPairs<Real>::is_kept(const Own& own, std::uint32_t count, std::uint32_t
     return !meet(own.all, lines) || !any_meets(lines, own.boxes, count);
 }
 
-// pair_of(of the leaf, of a range): where boxes meet; of no first node: none.
+// use(number of the leaf's box, number of a column, whether it is new) for all that meet.
 template <class Real>
-template <class PairOf>
-void FindPairs<Real>::find_candidates(const BoxColumns<Real>& columns,
-                                      const std::array<std::vector<Range>, 2>& ranges, bool changed,
-                                      const PairOf& pair_of, Found& found) const {
-    found.candidates.clear();
+template <class Use>
+void FindPairs<Real>::for_meeting(const BoxColumns<Real>& columns,
+                                  const std::array<std::vector<Range>, 2>& ranges, const Use& use,
+                                  Found& found) const {
     for (const bool is_new : {false, true}) {
         found.meeting.clear();
         find_meeting(found.boxes, columns, ranges[is_new ? 1 : 0], found.meeting);
-        for (const BoxPair& meeting : found.meeting) {
-            const ContactPair pair = pair_of(meeting.first, meeting.second);
-            if (pair.first != kNoNode && (!changed || is_new || has_changed_node(pair)))
-                found.candidates.push_back(pair);
-        }
+        for (const BoxPair& meeting : found.meeting) use(meeting.first, meeting.second, is_new);
     }
 }
 
@@ -324,31 +319,35 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool 
         for (std::vector<Range>& ranges : found.edges) ranges.clear();
         walk(leaf, other, swept(boxes_.trees[leaf], motion), others_alone, found);
         const auto reach = static_cast<float>(surface_->reach(object, other));
-        const ContactPair none{{}, kNoNode, 0, 0, 0, 0, 0.0f};
+        const auto add = [&](const ContactPair& pair, bool is_new) {
+            if (!changed || is_new || has_changed_node(pair)) found.candidates.push_back(pair);
+        };
+        found.candidates.clear();
         found.boxes.clear();
         for (std::uint32_t place = first.x; place < end.x; ++place)
             found.boxes.push_back(swept(boxes_.nodes[parts.nodes[place]], motion));
-        find_candidates(
-            boxes_.face_columns, found.faces, changed,
-            [&](std::uint32_t k, std::uint32_t f) {
+        for_meeting(
+            boxes_.face_columns, found.faces,
+            [&](std::uint32_t k, std::uint32_t f, bool is_new) {
                 const std::uint32_t n = parts.nodes[first.x + k];
                 const Face& face = model_->faces[f];
-                if (has_corner(face, n)) return none;
-                return ContactPair{{n, face.a, face.b, face.c}, n, f, object, other, 1, reach};
+                if (!has_corner(face, n))
+                    add({{n, face.a, face.b, face.c}, n, f, object, other, 1, reach}, is_new);
             },
             found);
         keep_near(paths, found, found.of_nodes);
         if (other < object) continue;
+        found.candidates.clear();
         found.boxes.clear();
         for (std::uint32_t e = first.y; e < end.y; ++e) found.boxes.push_back(swept(boxes_.edges[e], motion));
-        find_candidates(
-            boxes_.edge_columns, found.edges, changed,
-            [&](std::uint32_t k, std::uint32_t to) {
+        for_meeting(
+            boxes_.edge_columns, found.edges,
+            [&](std::uint32_t k, std::uint32_t to, bool is_new) {
                 const std::uint32_t e = first.y + k;
                 const FaceEdge &edge = parts.edges[e], &near = parts.edges[to];
                 // Of a body itself, only later ones.
-                if (other == object && (to <= e || share_end(edge, near))) return none;
-                return ContactPair{{edge.a, edge.b, near.a, near.b}, e, to, object, other, 2, reach};
+                if (other != object || (to > e && !share_end(edge, near)))
+                    add({{edge.a, edge.b, near.a, near.b}, e, to, object, other, 2, reach}, is_new);
             },
             found);
         keep_near(paths, found, found.of_edges);

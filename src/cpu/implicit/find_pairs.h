@@ -111,9 +111,9 @@ private:
     void search(std::uint32_t leaf, const Paths<Real>& paths, bool changed, Found& found) const;
     void walk(std::uint32_t leaf, std::uint32_t object, const AxisBox<Real>& box, bool changed,
               Found& found) const;
-    template <class PairOf>
-    void find_candidates(const BoxColumns<Real>& columns, const std::array<std::vector<Range>, 2>& ranges,
-                         bool changed, const PairOf& pair_of, Found& found) const;
+    template <class Use>
+    void for_meeting(const BoxColumns<Real>& columns, const std::array<std::vector<Range>, 2>& ranges,
+                     const Use& use, Found& found) const;
     bool may_meet_itself(std::uint32_t object) const;
     bool is_kept(const Own& own, std::uint32_t count, std::uint32_t node, std::uint32_t other) const;
     void keep_near(const Paths<Real>& paths, const Found& found, std::vector<NearPair<Real>>& kept) const;

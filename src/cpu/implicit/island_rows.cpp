@@ -43,7 +43,7 @@ void IslandRows<Real>::find_chords(std::span<const Vec3<Real>> expected_slips) c
         }
         if (row.limit > Real(0)) {
             ContactRow<Real> friction = row;
-            friction.reach = Real(0);
+            friction.reach = friction.damping = Real(0);
             friction.gap = Real(1);
             const RowTangent<Real> f = tangent(friction, s);
             t.constant += f.constant;
