@@ -18,18 +18,23 @@ float fall_at(StepIsland island, float base, float curvature, float t) {
 }
 
 // @param base what pulls along the direction without rows, and by how much less it does so at its end [J]
+// One loop, so that the sum is compiled once.
 float line_search(StepIsland island, float base, float curvature) {
-    float first = fall_at(island, base, curvature, 0.0);
-    if (!(first > 0.0)) return 0.0;
-    if (fall_at(island, base, curvature, 1.0) >= -kTurned * first) return 1.0;
-    float low = 0.0, high = 1.0;
-    for (uint k = 0u; k < kMostRounds; ++k) {
-        float middle = 0.5 * (low + high), there = fall_at(island, base, curvature, middle);
-        if (abs(there) <= kTurned * first) return middle;
+    float first = 0.0, low = 0.0, high = 1.0, t = 0.0;
+    for (uint k = 0u; k < kMostRounds + 2u; ++k) {
+        float there = fall_at(island, base, curvature, t);
+        if (k == 0u) {
+            if (!(there > 0.0)) return 0.0;
+            first = there;
+            t = 1.0;
+            continue;
+        }
+        if (k == 1u ? there >= -kTurned * first : abs(there) <= kTurned * first) return t;
         if (there > 0.0)
-            low = middle;
+            low = t;
         else
-            high = middle;
+            high = t;
+        t = 0.5 * (low + high);
     }
-    return 0.5 * (low + high);
+    return t;
 }

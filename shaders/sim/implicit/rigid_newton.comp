@@ -87,15 +87,20 @@ float precondition(uint object) {
 
 // E^-1 of the forces, by conjugate gradients.
 void find_step(StepIsland island) {
-    float sum = 0.0;
-    FOR_BODIES(island) {
-        uint o = body(k);
-        sum += precondition(o);
-        vectors[at(kStep, o)] = BodyMotion(vec4(0.0), vec4(0.0));
-        vectors[at(kDirection, o)] = vectors[at(kPreconditioned, o)];
-    }
-    float rz = sum_over_group(sum), enough = kRigidForcing * rz;
-    for (uint iteration = 0u; iteration < kMostRigidIterations && rz > enough; ++iteration) {
+    FOR_BODIES(island) vectors[at(kStep, body(k))] = BodyMotion(vec4(0.0), vec4(0.0));
+    float before = 0.0, enough = 0.0;
+    for (uint iteration = 0u; iteration <= kMostRigidIterations; ++iteration) {
+        float sum = 0.0;
+        FOR_BODIES(island) sum += precondition(body(k));
+        float rz = sum_over_group(sum);
+        if (iteration == 0u) enough = kRigidForcing * rz;
+        if (!(rz > enough) || iteration == kMostRigidIterations) break;
+        FOR_BODIES(island) {
+            uint o = body(k);
+            BodyMotion z = vectors[at(kPreconditioned, o)];
+            vectors[at(kDirection, o)] = iteration == 0u ? z : plus(z, rz / before, vectors[at(kDirection, o)]);
+        }
+        before = rz;
         multiply_pairs(island);
         sum = 0.0;
         FOR_BODIES(island) {
@@ -106,19 +111,11 @@ void find_step(StepIsland island) {
         }
         float curvature = sum_over_group(sum);
         if (!(curvature > 0.0)) break;
-        float a = rz / curvature;
-        sum = 0.0;
         FOR_BODIES(island) {
             uint o = body(k);
-            vectors[at(kStep, o)] = plus(vectors[at(kStep, o)], a, vectors[at(kDirection, o)]);
-            vectors[at(kForce, o)] = plus(vectors[at(kForce, o)], -a, vectors[at(kProduct, o)]);
-            sum += precondition(o);
+            vectors[at(kStep, o)] = plus(vectors[at(kStep, o)], rz / curvature, vectors[at(kDirection, o)]);
+            vectors[at(kForce, o)] = plus(vectors[at(kForce, o)], -rz / curvature, vectors[at(kProduct, o)]);
         }
-        float next = sum_over_group(sum);
-        FOR_BODIES(island)
-            vectors[at(kDirection, body(k))] =
-                plus(vectors[at(kPreconditioned, body(k))], next / rz, vectors[at(kDirection, body(k))]);
-        rz = next;
     }
     wait_for_group();
 }
@@ -177,11 +174,15 @@ void main() {
     StepIsland island = fetch_island(i);
     if (!begin_bodies(island) || !has_rows(island)) return;
     for (uint round_ = 0u; round_ < kMostRounds; ++round_) {
-        find_forces(island);
-        if (is_balanced(island, kNearBalance)) {
-            set_limits(island);
+        // Twice where limits of friction change between; one loop, so that it is compiled once.
+        bool is_near = false;
+        for (uint k = 0u; k < 2u; ++k) {
             find_forces(island);
-            if (round_ > 0u && is_balanced(island, tolerance)) break;
+            bool is_done = is_balanced(island, is_near ? tolerance : kNearBalance);
+            if (is_near && is_done && round_ > 0u) return;
+            if (is_near || !is_done) break;
+            set_limits(island);
+            is_near = true;
         }
         find_matrix(island);
         find_step(island);

@@ -66,7 +66,12 @@ void main() {
     if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     uint island = texelFetch(island_of_object, int(chunk.x)).x;
-    if (island == kNone) return;
+    if (island == kNone) {  // what was solved before is forgotten
+#ifdef FIRST
+        for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) steps[n] = vec4(0.0);
+#endif
+        return;
+    }
 #ifndef FIRST
     if (!has_rows(fetch_island(island)) || texelFetch(states, 2 * int(state_before(island)) + 1).z != 0u)
         return;

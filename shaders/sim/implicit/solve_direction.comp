@@ -38,7 +38,12 @@ void main() {
     if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     uint i = texelFetch(island_of_object, int(chunk.x)).x;
-    if (i == kNone) return;
+    if (i == kNone) {  // what was solved before is forgotten
+#ifdef FIRST
+        for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) directions[n] = vec4(0.0);
+#endif
+        return;
+    }
     StepIsland island = fetch_island(i);
     SolveState state = states[state_before(i)];
 #ifdef FIRST

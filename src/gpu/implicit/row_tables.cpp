@@ -27,6 +27,7 @@ void add_islands(std::span<const std::uint32_t> islands_of_bodies,
     std::uint32_t count = 0;
     for (std::uint32_t o = 0; o < islands_of_bodies.size(); ++o) {
         const std::uint32_t least = islands_of_bodies[o];
+        if (least == packing::kNone) continue;
         tables.island_of_object[o] = least == o ? count++ : tables.island_of_object[least];
         entries.emplace_back(tables.island_of_object[o], o);
     }
@@ -46,19 +47,26 @@ void add_islands(std::span<const std::uint32_t> islands_of_bodies,
     }
 }
 
-void sort_rows(std::span<const StepRow> rows, std::size_t bodies, RowTables& tables) {
+// Of the side that has one.
+std::uint32_t island_of(const RowTables& tables, std::uint32_t object, std::uint32_t other) {
+    const bool has_island =
+        other < tables.island_of_object.size() && tables.island_of_object[other] != packing::kNone;
+    return tables.island_of_object[has_island ? other : object];
+}
+
+void sort_rows(std::span<const StepRow> rows, RowTables& tables) {
     using Key = std::array<std::uint32_t, 4>;  // island, object, other, row
     std::vector<Key> keys;
     for (std::uint32_t r = 0; r < rows.size(); ++r) {
         const auto& [object, other] = std::pair(rows[r].object, rows[r].other);
-        keys.push_back({tables.island_of_object[other < bodies ? other : object], object, other, r});
+        keys.push_back({island_of(tables, object, other), object, other, r});
     }
     std::sort(keys.begin(), keys.end());
     for (const Key& key : keys) tables.rows.push_back(rows[key[3]]);
 }
 
 // Pairs, their chunks, and the parts of both that islands have.
-void add_pairs(std::uint32_t object_count, std::size_t bodies, RowTables& tables) {
+void add_pairs(std::uint32_t object_count, RowTables& tables) {
     const auto count = static_cast<std::uint32_t>(tables.rows.size());
     const auto end_of_pairs = [&] { return static_cast<std::uint32_t>(tables.pairs.size()); };
     const auto end_of_chunks = [&] { return static_cast<std::uint32_t>(tables.row_chunks.size()); };
@@ -67,10 +75,11 @@ void add_pairs(std::uint32_t object_count, std::size_t bodies, RowTables& tables
     for (std::uint32_t r = 0; r < count; r = next) {
         const std::uint32_t object = tables.rows[r].object, other = tables.rows[r].other;
         const auto place_of = [&](std::uint32_t o) {
-            return o < bodies && object != other ? o : object_count;
+            const bool moves = o < object_count && tables.island_of_object[o] != packing::kNone;
+            return moves && object != other ? o : object_count;
         };
         StepPair pair{place_of(object), place_of(other), end_of_chunks(), 0};
-        StepIsland& island = tables.islands[tables.island_of_object[other < bodies ? other : object]];
+        StepIsland& island = tables.islands[island_of(tables, object, other)];
         if (island.first_row == island.row_end) {
             island.first_row = r;
             island.first_row_chunk = end_of_chunks();
@@ -106,8 +115,8 @@ RowTables make_row_tables(const RowTableSizes& sizes, std::span<const StepRow> r
     tables.islands.resize(objects);
     tables.island_of_object.assign(objects, packing::kNone);
     add_islands(islands_of_bodies, sizes.chunk_starts, tables);
-    sort_rows(rows, islands_of_bodies.size(), tables);
-    add_pairs(objects, islands_of_bodies.size(), tables);
+    sort_rows(rows, tables);
+    add_pairs(objects, tables);
     std::vector<glm::uvec2> entries;
     for (std::uint32_t r = 0; r < tables.rows.size(); ++r) {
         const StepRow& row = tables.rows[r];

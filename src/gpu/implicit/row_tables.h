@@ -27,7 +27,8 @@ struct RowTableSizes {
 };
 
 /// @param rows of objects; packing::kNone: a plane. Nodes of weight 0 do not count.
-/// @param islands_of_bodies of each body the least one of its island
+/// @param islands_of_bodies of each body the least one of its island; packing::kNone: it sleeps, all of its
+/// nodes are held, and nothing moves it. Of a row one side at least has an island.
 RowTables make_row_tables(const RowTableSizes& sizes, std::span<const StepRow> rows,
                           std::span<const std::uint32_t> islands_of_bodies);
 

@@ -55,8 +55,6 @@ StepSystem::StepSystem(const Model& model, std::size_t row_capacity)
     std::vector<std::uint32_t> alone(model.body_count());
     std::iota(alone.begin(), alone.end(), 0u);
     set_rows({}, alone);
-    // Of objects that no solve moves.
-    elastic.displacements.upload(std::vector<glm::vec4>(model.positions.size(), glm::vec4(0.0f)));
     bind_buffers();
 }
 
@@ -151,6 +149,7 @@ std::vector<SolveState> StepSystem::states() const {
 }
 
 std::vector<glm::vec4> StepSystem::slips() const {
+    if (row_count_ == 0) return {};
     std::vector<glm::vec4> slips(buffers_.slips.values.size());
     gl::barrier(gl::Barrier::buffer_update);
     buffers_.slips.values.download(slips);

@@ -38,7 +38,8 @@ public:
     int iterations = 10;  ///< of conjugate gradients for each linearisation, at most; twice without rows
 
     /// @param rows of objects; packing::kNone: a plane
-    /// @param islands_of_bodies of each body the least one of its island
+    /// @param islands_of_bodies of each body the least one of its island; packing::kNone: it sleeps, all of
+    /// its nodes are held, and nothing moves it. Of a row one side at least has an island.
     /// @pre rows.size() <= row_capacity
     void set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies);
     /// @param at where the part begins; elastic.linearise() was called with it

@@ -15,6 +15,7 @@
 #include "cpu/implicit/step_system.h"
 #include "gpu/implicit/elastic_system.h"
 #include "gpu/implicit/step_system.h"
+#include "model/shared_constants.h"
 #include "support/contact_scenes.h"
 #include "support/converted.h"
 #include "support/elastic_cases.h"
@@ -105,6 +106,7 @@ struct SolveCase {
     float enough;  // [J]
     std::vector<cpu::ContactRow<double>> rows{};
     std::vector<std::uint32_t> islands{};  // of bodies; none: a body each
+    std::vector<std::uint8_t> asleep{};    // bodies, after a solve in which none is
     float push = 0.01f;                    // how far bodies would go [m]
 };
 
@@ -132,6 +134,12 @@ SolveInput solve_input(const SolveCase& at) {
         input.guesses.emplace_back(0.003f * guesses[n], 0.0f);
     }
     input.islands = at.islands;
+    for (std::uint32_t o = 0; o < at.asleep.size(); ++o) {
+        if (at.asleep[o] == 0) continue;
+        const Range& nodes = model.objects[o].nodes;
+        std::fill_n(input.loads.begin() + nodes.first, nodes.count, glm::vec4(0.0f));
+        std::fill_n(input.guesses.begin() + nodes.first, nodes.count, glm::vec4(0.0f));
+    }
     if (input.islands.empty()) {
         input.islands.resize(model.body_count());
         std::iota(input.islands.begin(), input.islands.end(), 0u);
@@ -164,23 +172,34 @@ SolveResult solve_on_gpu(const SolveCase& at) {
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     gpu::StepSystem system(model, at.rows.empty() ? 0 : at.rows.size() + 3);
-    const SolveInput input = solve_input(at);
-    system.loads().upload(input.loads);
-    system.displacements().upload(input.guesses);
     system.enough().upload(std::vector<float>(model.objects.size(), at.enough));
     system.iterations = at.iterations;
     std::vector<StepRow> rows;
     for (const cpu::ContactRow<double>& row : at.rows) rows.push_back(converted_row(row));
-    system.set_rows(rows, input.islands);
     system.elastic.linearise(buffers, nodes, kInverseStep);
-    system.solve(nodes);
+    const auto solve = [&](const SolveCase& some) {
+        SolveInput input = solve_input(some);
+        for (std::size_t o = 0; o < some.asleep.size(); ++o)
+            if (some.asleep[o] != 0) input.islands[o] = packing::kNone;
+        system.loads().upload(input.loads);
+        system.displacements().upload(input.guesses);
+        system.set_rows(rows, input.islands);
+        system.solve(nodes);
+    };
+    if (!at.asleep.empty()) {
+        SolveCase awake = at;
+        awake.asleep.clear();
+        solve(awake);
+        gl::barrier(gl::Barrier::buffer_update);
+    }
+    solve(at);
     SolveResult result;
+    for (const glm::vec4& slip : system.slips()) result.limits.push_back(static_cast<double>(slip.w));
     result.iterations = 0;
     for (const SolveState& state : system.states()) result.iterations += state.iterations;
     std::vector<glm::vec4> values(model.node_count());
     system.displacements().download(values);
     result.displacements = xyz_of(values);
-    for (const glm::vec4& slip : system.slips()) result.limits.push_back(static_cast<double>(slip.w));
     return result;
 }
 
@@ -197,6 +216,7 @@ SolveResult solve_reference(const SolveCase& at) {
     std::fill(system.enough.begin(), system.enough.end(), static_cast<double>(at.enough));
     system.iterations = at.iterations;
     system.rows = at.rows;
+    if (!at.asleep.empty()) system.leave_out(at.asleep);
     system.elastic.linearise(positions, converted<double>(model->velocities), kInverseStep);
     system.rigid.begin(positions, system.inertia);
     system.solve(input.islands);
