@@ -91,6 +91,8 @@ inline constexpr Mutant kStepSystemMutants[] = {
     {"no_iteration_is_made_in_any_case", "sim/implicit/solve_start.comp", "state.iterations == 0u ||", ""},
     {"the_first_direction_is_not_rigid", "sim/implicit/solve_direction.comp",
      "p += at_node(motion, center, n);", ""},
+    {"what_sleeps_has_directions", "sim/implicit/solve_direction.comp", "directions[n] = vec4(0.0);", ";"},
+    {"what_sleeps_has_steps", "sim/implicit/solve_begin.comp", "u) steps[n] = vec4(0.0);", "u) ;"},
     {"directions_are_not_conjugate", "sim/implicit/solve_direction.comp", "p += b *", "p += 0.0 *"},
     {"no_end_is_found", "sim/implicit/solve_direction.comp", "total.y > 0.0 &&", ""},
     {"islands_without_rows_end_early", "sim/implicit/solve_direction.comp", "? 1u : 2u)", "? 1u : 1u)"},

@@ -361,6 +361,18 @@ Scenarios step_system_scenarios() {
                              at.iterations = 2;
                              return solve_error(at);
                          }});
+    scenarios.push_back(
+        {"rows_of_what_was_solved_before_and_sleeps", [] {
+             SolveCase at = several_islands(0.4, 20, false);
+             at.asleep = {0, 0, 1, 0, 0, 1};
+             std::erase_if(at.rows, [](const auto& row) { return row.object == kNoNode && row.other == 2; });
+             return solve_error(at);
+         }});
+    scenarios.push_back({"rows_of_what_is_enough_at_once", [] {
+                             SolveCase at = several_islands(0.4, 20, false);
+                             at.enough = 1e9f;
+                             return solve_error(at);
+                         }});
     for (const double friction : {0.0, 0.6})
         scenarios.push_back(
             {friction > 0.0 ? "stack_with_friction" : "stack", [=] { return solve_error(stack(friction)); }});
