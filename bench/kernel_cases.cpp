@@ -153,9 +153,9 @@ class GlSystem {
 public:
     explicit GlSystem(const Model& model)
         : buffers_(model), nodes_(model.positions, model.velocities), system_(model) {
-        system_.loads.upload(loads_of(model));
-        system_.displacements.upload(std::vector<glm::vec4>(model.node_count(), glm::vec4(0.0f)));
-        system_.enough.upload(std::vector<float>(model.objects.size(), 0.0f));
+        system_.loads().upload(loads_of(model));
+        system_.displacements().upload(std::vector<glm::vec4>(model.node_count(), glm::vec4(0.0f)));
+        system_.enough().upload(std::vector<float>(model.objects.size(), 0.0f));
         system_.iterations = kSolveIterations / 2;
         linearise();
     }

@@ -232,8 +232,12 @@ void Program::use() const {
     applied_program = state_->serial;
 }
 
+bool Program::declares(std::string_view name) const {
+    return state_->interface.declares(name);
+}
+
 void Program::check_declared([[maybe_unused]] std::string_view name) const {
-    assert(state_->interface.declares(name));
+    assert(declares(name));
 }
 
 void Program::bind_block(std::string_view name, const ObjectName& buffer) const {

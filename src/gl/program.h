@@ -61,6 +61,8 @@ public:
     void set(std::string_view uniform, const glm::uvec4& value) const;
     void set(std::string_view uniform, const glm::mat4& value) const;
 
+    /// Whether its source has the name of a block or sampler: for lists of what several programs share.
+    bool declares(std::string_view name) const;
     template <class T>
     void bind(std::string_view block, const Buffer<T>& buffer) const {
         bind_block(block, buffer.name());

@@ -30,6 +30,7 @@ using glm::vec4;
 #include "layouts/shape_match.glsl"
 #include "layouts/skin_point.glsl"
 #include "layouts/spring.glsl"
+#include "layouts/step_rows.glsl"
 #include "layouts/step_system.glsl"
 #include "layouts/surface_vertex.glsl"
 #include "layouts/tet_strip.glsl"
@@ -39,6 +40,8 @@ static_assert(sizeof(AffineFit) == 80);
 static_assert(sizeof(Alarm) == 16);
 static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
+static_assert(sizeof(BodyInverse) == 144);
+static_assert(sizeof(BodyMotion) == 32);
 static_assert(sizeof(Box) == 32);
 static_assert(sizeof(Chunk) == 16);
 static_assert(sizeof(Cluster) == 96);
@@ -78,10 +81,14 @@ static_assert(sizeof(ShapePlace) == 96);
 static_assert(sizeof(ShapeSums) == 80);
 static_assert(sizeof(ColliderContact) == 32);
 static_assert(sizeof(SkinPoint) == 32);
-static_assert(sizeof(SolveState) == 16);
+static_assert(sizeof(SolveState) == 32);
 static_assert(sizeof(Spring) == 16);
-static_assert(sizeof(StepBody) == 48);
+static_assert(sizeof(StepBody) == 80);
 static_assert(sizeof(StepBodySums) == 48);
+static_assert(sizeof(StepIsland) == 48);
+static_assert(sizeof(StepPair) == 16);
+static_assert(sizeof(StepRow) == 96);
+static_assert(sizeof(StepTangent) == 48);
 static_assert(sizeof(SurfaceVertex) == 16);
 static_assert(sizeof(TetCorner) == 16);
 static_assert(sizeof(TreeNode) == 16);
@@ -93,6 +100,8 @@ namespace gelatin {
 using layouts::AffineFit;
 using layouts::Alarm;
 using layouts::ApproachSums;
+using layouts::BodyInverse;
+using layouts::BodyMotion;
 using layouts::BoundingBox;
 using layouts::Box;
 using layouts::Chunk;
@@ -137,6 +146,10 @@ using layouts::SolveState;
 using layouts::Spring;
 using layouts::StepBody;
 using layouts::StepBodySums;
+using layouts::StepIsland;
+using layouts::StepPair;
+using layouts::StepRow;
+using layouts::StepTangent;
 using layouts::SurfaceVertex;
 using layouts::TetCorner;
 using layouts::TreeNode;

@@ -8,6 +8,11 @@ namespace gelatin {
 
 using uint = std::uint32_t;
 
+/// Chosen numbers of contact and the implicit step (cpu/contact/tuning.h).
+namespace contact_tuning {
+#include "layouts/contact_tuning.glsl"
+}  // namespace contact_tuning
+
 /// Arguments of the indirect dispatches of collision.
 namespace dispatch_slots {
 #include "layouts/dispatch_slots.glsl"

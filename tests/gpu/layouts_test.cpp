@@ -95,14 +95,41 @@ TEST_F(LayoutsTest, ElementEdge) {
 
 TEST_F(LayoutsTest, StepSystem) {
     check("step_system.glsl", "StepBody", sizeof(StepBody),
-          {FIELD(StepBody, center), FIELD(StepBody, inverse_diagonal), FIELD(StepBody, inverse_beside)});
+          {FIELD(StepBody, center), FIELD(StepBody, inverse_diagonal), FIELD(StepBody, inverse_beside),
+           FIELD(StepBody, diagonal), FIELD(StepBody, beside)});
     check("step_system.glsl", "StepBodySums", sizeof(StepBodySums),
           {FIELD(StepBodySums, arm), FIELD(StepBodySums, square), FIELD(StepBodySums, beside)});
     check("step_system.glsl", "ResidualSums", sizeof(ResidualSums),
           {FIELD(ResidualSums, force), FIELD(ResidualSums, moment)});
+    check("step_system.glsl", "BodyMotion", sizeof(BodyMotion),
+          {FIELD(BodyMotion, displacement), FIELD(BodyMotion, rotation)});
+    check("step_system.glsl", "BodyInverse", sizeof(BodyInverse),
+          {FIELD(BodyInverse, a_x), FIELD(BodyInverse, a_y), FIELD(BodyInverse, a_z), FIELD(BodyInverse, b_x),
+           FIELD(BodyInverse, b_y), FIELD(BodyInverse, b_z), FIELD(BodyInverse, c_x), FIELD(BodyInverse, c_y),
+           FIELD(BodyInverse, c_z)});
     check("step_system.glsl", "SolveState", sizeof(SolveState),
           {FIELD(SolveState, lack), FIELD(SolveState, is_done), FIELD(SolveState, is_stuck),
-           FIELD(SolveState, iterations)});
+           FIELD(SolveState, iterations), FIELD(SolveState, made), FIELD(SolveState, enough),
+           FIELD(SolveState, is_over), FIELD(SolveState, unused)});
+}
+
+TEST_F(LayoutsTest, StepRows) {
+    check("step_rows.glsl", "StepRow", sizeof(StepRow),
+          {FIELD(StepRow, node_0), FIELD(StepRow, node_1), FIELD(StepRow, node_2), FIELD(StepRow, node_3),
+           FIELD(StepRow, weights), FIELD(StepRow, normal), FIELD(StepRow, reach), FIELD(StepRow, stiffness),
+           FIELD(StepRow, damping), FIELD(StepRow, friction), FIELD(StepRow, hold), FIELD(StepRow, object),
+           FIELD(StepRow, other), FIELD(StepRow, unused_0), FIELD(StepRow, unused_1)});
+    check("step_rows.glsl", "StepTangent", sizeof(StepTangent),
+          {FIELD(StepTangent, constant), FIELD(StepTangent, diagonal), FIELD(StepTangent, beside)});
+    check("step_rows.glsl", "StepPair", sizeof(StepPair),
+          {FIELD(StepPair, object), FIELD(StepPair, other), FIELD(StepPair, first_chunk),
+           FIELD(StepPair, chunk_end)});
+    check(
+        "step_rows.glsl", "StepIsland", sizeof(StepIsland),
+        {FIELD(StepIsland, first_body), FIELD(StepIsland, body_end), FIELD(StepIsland, first_chunk),
+         FIELD(StepIsland, chunk_end), FIELD(StepIsland, first_row), FIELD(StepIsland, row_end),
+         FIELD(StepIsland, first_row_chunk), FIELD(StepIsland, row_chunk_end), FIELD(StepIsland, first_pair),
+         FIELD(StepIsland, pair_end), FIELD(StepIsland, unused_0), FIELD(StepIsland, unused_1)});
 }
 
 TEST_F(LayoutsTest, Draw) {

@@ -12,8 +12,10 @@ uniform uint element_count;
 #ifdef OBJECTS
 uniform usamplerBuffer chunk_starts;  // of each object, and the end
 uniform samplerBuffer enough;         // energy that may be missing, of each object [J]
-layout(std430) readonly buffer Sums { StepBodySums sums[]; };
+uniform samplerBuffer weights;        // of each object [N]
+layout(std430) readonly buffer BodySums { StepBodySums sums[]; };
 layout(std430) writeonly buffer Bodies { StepBody bodies[]; };
+layout(std430) writeonly buffer Inverses { BodyInverse inverses[]; };
 
 void main() {
     uint object = global_index();
@@ -26,22 +28,27 @@ void main() {
         beside += sums[c].beside;
     }
     float missing = texelFetch(enough, int(object)).x;
+    float weight = texelFetch(weights, int(object)).x;
     if (!(arm.w > 0.0) || square.w > 0.0) {
-        bodies[object] = StepBody(vec4(0.0), vec4(vec3(0.0), missing), vec4(0.0));
+        vec4 no = vec4(0.0);
+        bodies[object] = StepBody(no, vec4(vec3(0.0), missing), vec4(vec3(0.0), weight), no, no);
+        inverses[object] = BodyInverse(no, no, no, no, no, no, no, no, no);
         return;
     }
     vec3 middle = arm.xyz / arm.w;
     vec3 s = square.xyz - arm.w * middle * middle, b = beside.xyz - arm.w * middle.yzx * middle.zxy;
-    mat3 inertia = mat3(s.y + s.z, -b.z, -b.y, -b.z, s.z + s.x, -b.x, -b.y, -b.x, s.x + s.y);
-    mat3 inverse_inertia = inverse(inertia);
+    vec3 diagonal = s.yzx + s.zxy;
+    mat3 i = inverse(mat3(diagonal.x, -b.z, -b.y, -b.z, diagonal.y, -b.x, -b.y, -b.x, diagonal.z));
     vec3 origin = texelFetch(positions, int(texelFetch(chunks, int(first)).w)).xyz;
-    bodies[object] = StepBody(vec4(origin + middle, 1.0 / arm.w),
-                              vec4(inverse_inertia[0].x, inverse_inertia[1].y, inverse_inertia[2].z, missing),
-                              vec4(inverse_inertia[1].z, inverse_inertia[2].x, inverse_inertia[0].y, 0.0));
+    bodies[object] = StepBody(vec4(origin + middle, 1.0 / arm.w), vec4(i[0].x, i[1].y, i[2].z, missing),
+                              vec4(i[1].z, i[2].x, i[0].y, weight), vec4(diagonal, arm.w), vec4(-b, 0.0));
+    mat3 a = mat3(1.0 / arm.w);
+    inverses[object] = BodyInverse(vec4(a[0], 0.0), vec4(a[1], 0.0), vec4(a[2], 0.0), vec4(0.0), vec4(0.0), vec4(0.0),
+                                   vec4(i[0], 0.0), vec4(i[1], 0.0), vec4(i[2], 0.0));
 }
 #else
 uniform samplerBuffer loads;  // w: m / h^2 [N/m], 0 where a node is held
-layout(std430) writeonly buffer Sums { StepBodySums sums[]; };
+layout(std430) writeonly buffer BodySums { StepBodySums sums[]; };
 shared StepBodySums parts[64];
 
 void main() {

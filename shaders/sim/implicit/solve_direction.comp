@@ -1,85 +1,74 @@
-// The next direction, z + b p, with the rigid level in z; a body that lacks no more of its least energy than it may is
-// done. With FINISH: what was found becomes the displacement, and the rigid level's last answer with it.
+// The next direction, z + b p; an island of which no body lacks more of its least energy than it may is done. FIRST: there is no
+// direction yet, and the rigid level is not yet in z.
 // CPU twin: gelatin::cpu::IslandSolve::conjugate_gradients. Parity: tests/gpu/implicit/step_system_test.cpp.
+const uint kLanes = 64u;
 #include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/group_sums.glsl"
 layout(local_size_x = 64) in;
 
-uniform samplerBuffer positions;       // xyz [m]
-uniform samplerBuffer bodies;          // StepBody, three texels each
-layout(std430) readonly buffer Sums { ResidualSums sums[]; };
-
-// A rigid motion of a body for a force and moment, about its centre.
-struct Motion {
-    vec3 displacement, rotation;
-    float lack;  // r . z of the body [J]
-};
-
-Motion motion_of(uint object) {
-    vec4 force = vec4(0.0);
-    vec3 moment = vec3(0.0);
-    uint end = texelFetch(chunk_starts, int(object) + 1).x;
-    for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) {
-        force += sums[c].force;
-        moment += sums[c].moment.xyz;
-    }
-    float inverse_inertia = texelFetch(bodies, 3 * int(object)).w;
-    vec3 d = texelFetch(bodies, 3 * int(object) + 1).xyz, b = texelFetch(bodies, 3 * int(object) + 2).xyz;
-    vec3 displacement = inverse_inertia * force.xyz;
-    vec3 rotation = d * moment + b.zxy * moment.yzx + b.yzx * moment.zxy;
-    return Motion(displacement, rotation, force.w + dot(displacement, force.xyz) + dot(rotation, moment));
-}
-
-vec3 at_node(Motion motion, vec3 center, uint n) {
-    return motion.displacement + cross(motion.rotation, texelFetch(positions, int(n)).xyz - center);
-}
-
-#ifdef FINISH
-uniform samplerBuffer steps;  // [m]
-layout(std430) buffer Displacements { vec4 displacements[]; };  // d [m]
-
-void main() {
-    uint c = group_index();
-    if (c >= chunk_count) return;
-    uvec4 chunk = texelFetch(chunks, int(c));
-    Motion motion = motion_of(chunk.x);
-    vec3 center = texelFetch(bodies, 3 * int(chunk.x)).xyz;
-    for (uint n = chunk.y + gl_LocalInvocationID.x; n < chunk.y + chunk.z; n += 64u)
-        if (texelFetch(loads, int(n)).w > 0.0)
-            displacements[n].xyz += texelFetch(steps, int(n)).xyz + at_node(motion, center, n);
-}
-#else
 uniform samplerBuffer preconditioned;  // z [m]
 layout(std430) buffer Directions { vec4 directions[]; };  // p [m]
 layout(std430) buffer States { SolveState states[]; };
-uniform uint is_first;  // there is no direction yet
+#ifdef FIRST
+uniform samplerBuffer body_motions;  // BodyMotion by object, two texels each
+uniform uint is_first;               // of the linearisations
+#else
+layout(std430) readonly buffer Lacks { float lacks[]; };  // r . z by chunk [J]
+uniform uint most_iterations;  // of a linearisation; twice as many without rows
+
+// After an iteration.
+SolveState next_state(SolveState state, StepIsland island) {
+    float lack = 0.0, lacking = 0.0;
+    for (uint k = island.first_body + gl_LocalInvocationID.x; k < island.body_end; k += kLanes) {
+        uint object = texelFetch(island_bodies, int(k)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
+        float of_body = 0.0;
+        for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) of_body += lacks[c];
+        lack += of_body;
+        if (!(of_body <= enough_of(object))) lacking += 1.0;
+    }
+    vec2 total = sum_over_group(vec4(lack, lacking, 0.0, 0.0)).xy;
+    uint made = state.made + (state.is_stuck != 0u ? 0u : 1u), most = most_iterations * (has_rows(island) ? 1u : 2u);
+    bool goes_on = state.is_stuck == 0u && total.y > 0.0 && total.x > state.enough && made < most;
+    return SolveState(total.x, goes_on ? 0u : 1u, 0u, state.iterations + 1u, made, state.enough, state.is_over, 0u);
+}
+#endif
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
-    bool writes_state = lane == 0u && c == texelFetch(chunk_starts, int(chunk.x)).x;
-    SolveState state = SolveState(0.0, 0u, 0u, 0u);
-    if (is_first == 0u) state = states[state_before(chunk.x)];
-    if (state.is_done != 0u) {
-        if (writes_state) states[state_after(chunk.x)] = state;
+    uint i = texelFetch(island_of_object, int(chunk.x)).x;
+    if (i == kNone) {  // what was solved before is forgotten
+#ifdef FIRST
+        for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) directions[n] = vec4(0.0);
+#endif
         return;
     }
-    Motion motion = motion_of(chunk.x);
-    float lack = motion.lack, enough = texelFetch(bodies, 3 * int(chunk.x) + 1).w;
-    // One iteration is made in any case: what elements exert counts, however short the part.
-    bool is_done = !(lack > 0.0) || (is_first == 0u && lack <= enough) || state.is_stuck != 0u;
-    if (writes_state)
-        states[state_after(chunk.x)] =
-            SolveState(lack, is_done ? 1u : 0u, 0u, state.iterations + (is_first == 0u ? 1u : 0u));
-    float b = is_first == 0u ? lack / state.lack : 0.0;
-    vec3 center = texelFetch(bodies, 3 * int(chunk.x)).xyz;
+    StepIsland island = fetch_island(i);
+    SolveState state = states[state_before(i)];
+#ifdef FIRST
+    if (state.is_done != 0u || (is_first == 0u && !has_rows(island))) return;
+    BodyMotion motion = BodyMotion(texelFetch(body_motions, 2 * int(chunk.x)), texelFetch(body_motions, 2 * int(chunk.x) + 1));
+    vec3 center = center_of(chunk.x);
+#else
+    bool writes_state = lane == 0u && c == texelFetch(island_chunks, int(island.first_chunk)).x;
+    bool was_done = state.is_done != 0u;
+    float before = state.lack;
+    if (!was_done) state = next_state(state, island);
+    if (writes_state) states[state_after(i)] = state;
+    if (was_done) return;
+    float b = state.lack / before;
+#endif
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
         vec3 p = vec3(0.0);
         if (texelFetch(loads, int(n)).w > 0.0) {
-            p = texelFetch(preconditioned, int(n)).xyz + at_node(motion, center, n);
-            if (is_first == 0u) p += b * directions[n].xyz;
+            p = texelFetch(preconditioned, int(n)).xyz;
+#ifdef FIRST
+            p += at_node(motion, center, n);
+#else
+            p += b * directions[n].xyz;
+#endif
         }
         directions[n] = vec4(p, 0.0);
     }
 }
-#endif

@@ -1,97 +1,72 @@
-// The residual r after a step along the direction p, and what the nodes' own blocks make of it, z; with the sums over chunks that
-// the rigid level needs. With BEGIN: the residual where the solve begins.
+// The residual r after a step along the direction p, and z, what the nodes' own blocks and those of bodies make of it; r . z by chunk.
+// The rigid part of r follows from that of A p.
 // CPU twin: gelatin::cpu::IslandSolve::precondition. Parity: tests/gpu/implicit/step_system_test.cpp.
-#ifdef BEGIN
-#define PRODUCTS
-#include "sim/implicit/half_edges.glsl"
-#endif
+#include "layouts/element_edge.glsl"
 #include "sim/elasticity/node_terms.glsl"
 #include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/body_sums.glsl"
 layout(local_size_x = 64) in;
 
-uniform samplerBuffer positions;  // xyz [m]
-uniform samplerBuffer blocks;     // NodeBlock, two texels each
-uniform samplerBuffer bodies;     // StepBody, three texels each
-#ifndef BEGIN
+uniform samplerBuffer blocks;      // NodeBlock with inertia and rows, two texels each
 uniform samplerBuffer directions;  // p [m]
 uniform samplerBuffer products;    // A p [N]
-layout(std430) readonly buffer Curvatures { float curvatures[]; };  // by chunk [J]
+layout(std430) readonly buffer ProductSums { ResidualSums product_sums[]; };  // by chunk
 layout(std430) buffer States { SolveState states[]; };
-#endif
+layout(std430) buffer BodyForces { BodyMotion body_forces[]; };  // W^T r by object, two by turns
 layout(std430) buffer Steps { vec4 steps[]; };          // [m]
 layout(std430) buffer Residuals { vec4 residuals[]; };  // r [N]
 layout(std430) writeonly buffer Preconditioned { vec4 preconditioned[]; };  // z [m]
-layout(std430) writeonly buffer Sums { ResidualSums sums[]; };
-shared vec4 forces[64], moments[64];
+layout(std430) writeonly buffer Lacks { float lacks[]; };                   // by chunk [J]
 
-#ifdef BEGIN
-vec3 residual_at(uint n, float inertia) {
-    vec3 d = texelFetch(displacements, int(n)).xyz;
-    steps[n] = vec4(0.0);
-    return texelFetch(loads, int(n)).xyz - stiffness_times(n, d) - inertia * d;
-}
-#else
-float length_of_step = 0.0;
-
-// How far along p the objective falls. The same in all work groups of an object.
-void find_length_of_step(uint object, uint lane) {
-    uint first = texelFetch(chunk_starts, int(object)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
+// How far along p the objective falls. The same in all work groups of an island.
+float length_of_step(uint i, StepIsland island) {
     float sum = 0.0;
-    for (uint k = first + lane; k < end; k += 64u) sum += curvatures[k];
-    forces[lane].x = sum;
-    for (uint half_ = 32u; half_ > 0u; half_ /= 2u) {
-        barrier();
-        if (lane < half_) forces[lane].x += forces[lane + half_].x;
-    }
-    barrier();
-    float curvature = forces[0].x;
-    barrier();
-    uint state = state_before(object);
-    length_of_step = curvature > 0.0 ? states[state].lack / curvature : 0.0;
-    if (!(curvature > 0.0) && group_index() == first && lane == 0u) states[state].is_stuck = 1u;
+    for (uint k = island.first_chunk + gl_LocalInvocationID.x; k < island.chunk_end; k += 64u)
+        sum += product_sums[texelFetch(island_chunks, int(k)).x].force.w;
+    float curvature = sum_by_lanes(vec4(sum, vec3(0.0)), vec3(0.0)).force.x;
+    if (curvature > 0.0) return states[state_before(i)].lack / curvature;
+    bool writes_state = group_index() == texelFetch(island_chunks, int(island.first_chunk)).x;
+    if (writes_state && gl_LocalInvocationID.x == 0u) states[state_before(i)].is_stuck = 1u;
+    return 0.0;
 }
 
-vec3 residual_at(uint n, float inertia) {
-    steps[n].xyz += length_of_step * texelFetch(directions, int(n)).xyz;
-    return residuals[n].xyz - length_of_step * texelFetch(products, int(n)).xyz;
+// W^T r of a body after the step. The same in all of its work groups.
+BodyMotion body_force(uint object, float a) {
+    vec4 force = vec4(0.0), moment = vec4(0.0);
+    uint end = texelFetch(chunk_starts, int(object) + 1).x;
+    for (uint c = texelFetch(chunk_starts, int(object)).x + gl_LocalInvocationID.x; c < end; c += 64u) {
+        force += product_sums[c].force;
+        moment += product_sums[c].moment;
+    }
+    ResidualSums sum = sum_by_lanes(force, moment.xyz);
+    BodyMotion before = body_forces[state_before(object)];
+    return BodyMotion(before.displacement - a * vec4(sum.force.xyz, 0.0), before.rotation - a * sum.moment);
 }
-#endif
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
-#ifndef BEGIN
-    if (states[state_before(chunk.x)].is_done != 0u) return;
-    find_length_of_step(chunk.x, lane);
-#endif
-    vec3 center = texelFetch(bodies, 3 * int(chunk.x)).xyz;
-    vec4 force = vec4(0.0);
-    vec3 moment = vec3(0.0);
+    uint i = texelFetch(island_of_object, int(chunk.x)).x;
+    if (i == kNone || states[state_before(i)].is_done != 0u) return;
+    float a = length_of_step(i, fetch_island(i));
+    BodyMotion force = body_force(chunk.x, a), motion = times(fetch_inverse(chunk.x), force);
+    bool is_first = c == texelFetch(chunk_starts, int(chunk.x)).x;
+    float lack = 0.0;
+    if (is_first && lane == 0u) {
+        body_forces[state_after(chunk.x)] = force;
+        lack = dot_of(force, motion);
+    }
+    vec3 center = center_of(chunk.x);
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
-        float inertia = texelFetch(loads, int(n)).w;
-        vec3 r = vec3(0.0), z = vec3(0.0);
-        if (inertia > 0.0) {
-            r = residual_at(n, inertia);
-            z = solve(NodeTerms(vec3(0.0), texelFetch(blocks, 2 * int(n)).xyz + inertia,
-                                texelFetch(blocks, 2 * int(n) + 1).xyz), r);
-        }
-#ifdef BEGIN
-        else steps[n] = vec4(0.0);
-#endif
+        if (!(texelFetch(loads, int(n)).w > 0.0)) continue;
+        steps[n].xyz += a * texelFetch(directions, int(n)).xyz;
+        vec3 r = residuals[n].xyz - a * texelFetch(products, int(n)).xyz;
+        vec3 z = solve(NodeTerms(vec3(0.0), texelFetch(blocks, 2 * int(n)).xyz, texelFetch(blocks, 2 * int(n) + 1).xyz), r);
         residuals[n] = vec4(r, 0.0);
-        preconditioned[n] = vec4(z, 0.0);
-        force += vec4(r, dot(r, z));
-        moment += cross(texelFetch(positions, int(n)).xyz - center, r);
+        preconditioned[n] = vec4(z + at_node(motion, center, n), 0.0);
+        lack += dot(r, z);
     }
-    forces[lane] = force;
-    moments[lane] = vec4(moment, 0.0);
-    for (uint half_ = 32u; half_ > 0u; half_ /= 2u) {
-        barrier();
-        if (lane < half_) {
-            forces[lane] += forces[lane + half_];
-            moments[lane] += moments[lane + half_];
-        }
-    }
-    if (lane == 0u) sums[c] = ResidualSums(forces[0], moments[0]);
+    float sum = sum_by_lanes(vec4(lack, vec3(0.0)), vec3(0.0)).force.x;
+    if (lane == 0u) lacks[c] = sum;
 }

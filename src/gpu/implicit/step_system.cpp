@@ -1,130 +1,160 @@
 #include "gpu/implicit/step_system.h"
 
-#include <algorithm>
+#include <cassert>
+#include <numeric>
 
-#include "gpu/chunks.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::gpu {
+namespace {
 
-StepSystem::StepSystem(const Model& model)
+void bind_positions(const gl::Program& program, const NodeBuffers& at) {
+    if (program.declares("positions")) program.bind("positions", at.position_texels);
+}
+
+}  // namespace
+
+StepSystem::Programs::Programs(const gl::Defines& rows)
+    : sums(gl::Program::compute("sim/implicit/solve_bodies.comp")),
+      bodies(gl::Program::compute("sim/implicit/solve_bodies.comp", {"OBJECTS"})),
+      start(gl::Program::compute("sim/implicit/solve_start.comp")),
+      first_direction(gl::Program::compute("sim/implicit/solve_direction.comp", {"FIRST"})),
+      product(gl::Program::compute("sim/implicit/solve_product.comp", rows)),
+      residual(gl::Program::compute("sim/implicit/solve_residual.comp")),
+      direction(gl::Program::compute("sim/implicit/solve_direction.comp")),
+      finish(gl::Program::compute("sim/implicit/find_base.comp", {"FINISH"})) {
+    gl::Defines first = rows;
+    first.emplace_back("FIRST");
+    begin = gl::Program::compute("sim/implicit/solve_begin.comp", first);
+}
+
+std::vector<const gl::Program*> StepSystem::Programs::all() const {
+    return {&sums, &bodies, &begin, &start, &first_direction, &product, &residual, &direction, &finish};
+}
+
+StepSystem::RowPrograms::RowPrograms()
+    : begin(gl::Program::compute("sim/implicit/begin_rows.comp")),
+      base(gl::Program::compute("sim/implicit/find_base.comp")),
+      newton(gl::Program::compute("sim/implicit/rigid_newton.comp")),
+      move(gl::Program::compute("sim/implicit/move_bodies.comp")),
+      linearise(gl::Program::compute("sim/implicit/linearise_rows.comp")),
+      begin_again(gl::Program::compute("sim/implicit/solve_begin.comp", {"ROWS"})),
+      sum_step(gl::Program::compute("sim/implicit/sum_step.comp")),
+      line_search(gl::Program::compute("sim/implicit/line_search.comp")) {}
+
+std::vector<const gl::Program*> StepSystem::RowPrograms::all() const {
+    return {&begin, &base, &newton, &move, &linearise, &begin_again, &sum_step, &line_search};
+}
+
+StepSystem::StepSystem(const Model& model, std::size_t row_capacity)
     : elastic(model),
-      loads(model.positions.size()),
-      displacements(model.positions.size()),
-      enough(model.objects.size()),
-      sum_program_(gl::Program::compute("sim/implicit/solve_bodies.comp")),
-      body_program_(gl::Program::compute("sim/implicit/solve_bodies.comp", {"OBJECTS"})),
-      begin_program_(gl::Program::compute("sim/implicit/solve_residual.comp", {"BEGIN"})),
-      residual_program_(gl::Program::compute("sim/implicit/solve_residual.comp")),
-      direction_program_(gl::Program::compute("sim/implicit/solve_direction.comp")),
-      product_program_(gl::Program::compute("sim/implicit/solve_product.comp")),
-      finish_program_(gl::Program::compute("sim/implicit/solve_direction.comp", {"FINISH"})),
-      object_count_(static_cast<std::uint32_t>(model.objects.size())),
-      bodies_(model.objects.size()),
-      states_(2 * model.objects.size()),
-      steps_(model.positions.size()),
-      residuals_(model.positions.size()),
-      preconditioned_(model.positions.size()),
-      products_(model.positions.size()) {
-    const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
-    chunk_count_ = static_cast<std::uint32_t>(chunks.size());
-    chunks_ = {chunks, gl::TexelFormat::rgba32ui};
-    chunk_starts_ = {chunk_starts(chunks, model.objects.size()), gl::TexelFormat::r32ui};
-    body_sums_ = gl::Buffer<StepBodySums>(chunks.size());
-    sums_ = gl::Buffer<ResidualSums>(chunks.size());
-    curvatures_ = gl::Buffer<float>(chunks.size());
-    load_texels_ = {loads, gl::TexelFormat::rgba32f};
-    displacement_texels_ = {displacements, gl::TexelFormat::rgba32f};
-    enough_texels_ = {enough, gl::TexelFormat::r32f};
-    body_texels_ = {bodies_, gl::TexelFormat::rgba32f};
-    step_texels_ = {steps_, gl::TexelFormat::rgba32f};
-    preconditioned_texels_ = {preconditioned_, gl::TexelFormat::rgba32f};
-    product_texels_ = {products_, gl::TexelFormat::rgba32f};
+      buffers_(model, row_capacity),
+      programs_(row_capacity > 0 ? gl::Defines{"ROWS"} : gl::Defines{}),
+      row_capacity_(row_capacity) {
+    if (row_capacity > 0) rows_.emplace();
+    std::vector<std::uint32_t> alone(model.body_count());
+    std::iota(alone.begin(), alone.end(), 0u);
+    set_rows({}, alone);
     bind_buffers();
 }
 
 // What never changes.
 void StepSystem::bind_buffers() const {
-    for (const gl::Program* program : {&sum_program_, &body_program_, &begin_program_, &residual_program_,
-                                       &direction_program_, &product_program_, &finish_program_}) {
-        program->bind("chunks", chunks_);
-        program->set("chunk_count", chunk_count_);
-        program->set("object_count", object_count_);
-    }
-    for (const gl::Program* program : {&sum_program_, &begin_program_, &residual_program_,
-                                       &direction_program_, &product_program_, &finish_program_})
-        program->bind("loads", load_texels_);
-    for (const gl::Program* program :
-         {&begin_program_, &residual_program_, &direction_program_, &finish_program_}) {
-        program->bind("bodies", body_texels_);
-        program->bind("Sums", sums_);
-    }
-    for (const gl::Program* program : {&begin_program_, &residual_program_}) {
-        program->bind("blocks", elastic.block_texels());
-        program->bind("Steps", steps_);
-        program->bind("Residuals", residuals_);
-        program->bind("Preconditioned", preconditioned_);
-    }
-    for (const gl::Program* program : {&residual_program_, &direction_program_, &product_program_})
-        program->bind("States", states_);
-    for (const gl::Program* program : {&body_program_, &begin_program_, &residual_program_,
-                                       &direction_program_, &product_program_, &finish_program_})
-        program->bind("chunk_starts", chunk_starts_);
-    for (const gl::Program* program : {&residual_program_, &product_program_})
-        program->bind("Curvatures", curvatures_);
-    sum_program_.bind("Sums", body_sums_);
-    sum_program_.set("element_count", chunk_count_);
-    body_program_.bind("Sums", body_sums_);
-    body_program_.bind("Bodies", bodies_);
-    body_program_.bind("enough", enough_texels_);
-    body_program_.set("element_count", object_count_);
-    elastic.bind_product(begin_program_, displacement_texels_);
-    elastic.bind_product(product_program_, elastic.displacement_texels());
-    residual_program_.bind("directions", elastic.displacement_texels());
-    residual_program_.bind("products", product_texels_);
-    product_program_.bind("Products", products_);
-    direction_program_.bind("Directions", elastic.displacements);
-    direction_program_.bind("preconditioned", preconditioned_texels_);
-    finish_program_.bind("steps", step_texels_);
-    finish_program_.bind("Displacements", displacements);
+    for (const gl::Program* program : programs_.all()) buffers_.bind(*program);
+    const Programs& p = programs_;
+    p.sums.set("element_count", buffers_.chunk_count);
+    p.bodies.set("element_count", buffers_.object_count);
+    elastic.bind_product(p.begin, buffers_.displacements.texels);
+    elastic.bind_product(p.product, elastic.displacement_texels());
+    p.begin.bind("element_blocks", elastic.block_texels());
+    p.residual.bind("directions", elastic.displacement_texels());
+    for (const gl::Program* program : {&p.first_direction, &p.direction})
+        program->bind("Directions", elastic.displacements);
+    if (!rows_) return;
+    for (const gl::Program* program : rows_->all()) buffers_.bind(*program);
+    rows_->begin_again.bind("element_blocks", elastic.block_texels());
 }
 
-// A work group a chunk.
-void StepSystem::dispatch(const gl::Program& program) const {
-    program.dispatch_groups(chunk_count_);
+void StepSystem::set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies) {
+    assert(rows.size() <= row_capacity_);
+    row_count_ = static_cast<std::uint32_t>(rows.size());
+    buffers_.set_rows(rows, islands_of_bodies);
+}
+
+void StepSystem::run(const gl::Program& program, std::uint32_t groups) const {
+    program.dispatch_groups(groups);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-void StepSystem::solve(const NodeBuffers& at) const {
-    for (const gl::Program* program : {&sum_program_, &body_program_, &begin_program_, &residual_program_,
-                                       &direction_program_, &finish_program_})
-        program->bind("positions", at.position_texels);
-    dispatch(sum_program_);
-    body_program_.dispatch(object_count_);
-    gl::barrier(gl::Barrier::texture_fetch);
-    dispatch(begin_program_);
-    const auto find_direction = [&](std::uint32_t turn, bool is_first) {
-        direction_program_.set("turn", turn);
-        direction_program_.set("is_first", is_first ? 1u : 0u);
-        dispatch(direction_program_);
+// With what is in base_sums.
+void StepSystem::run_newton(float tolerance) const {
+    rows_->newton.set("tolerance", tolerance);
+    run(rows_->newton, buffers_.object_count);
+    run(rows_->move, buffers_.chunk_count);
+}
+
+// A linearisation and its conjugate gradients. @param turn of states @return the next
+std::uint32_t StepSystem::run_round(bool is_first, int count, std::uint32_t turn) const {
+    const std::uint32_t chunks = buffers_.chunk_count, islands = buffers_.object_count;
+    const auto run_at_turn = [&](const gl::Program& program, std::uint32_t groups) {
+        program.set("turn", turn);
+        program.set("is_first", is_first ? 1u : 0u);
+        run(program, groups);
     };
-    find_direction(1, true);
-    for (int k = 0; k < 2 * iterations; ++k) {
-        const auto turn = static_cast<std::uint32_t>(k % 2);
-        for (const gl::Program* program : {&product_program_, &residual_program_}) {
-            program->set("turn", turn);
-            dispatch(*program);
-        }
-        find_direction(turn, false);
+    if (rows_) run_at_turn(rows_->linearise, islands);
+    run_at_turn(is_first ? programs_.begin : rows_->begin_again, chunks);
+    run_at_turn(programs_.start, islands);
+    run_at_turn(programs_.first_direction, chunks);
+    for (int k = 0; k < count; ++k) {
+        for (const gl::Program* program : {&programs_.product, &programs_.residual, &programs_.direction})
+            run_at_turn(*program, chunks);
+        turn = 1 - turn;
     }
-    dispatch(finish_program_);
+    if (rows_) {
+        run_at_turn(rows_->sum_step, chunks);
+        run_at_turn(rows_->line_search, islands);
+    }
+    return turn;
+}
+
+void StepSystem::solve(const NodeBuffers& at) const {
+    for (const gl::Program* program : programs_.all()) bind_positions(*program, at);
+    programs_.direction.set("most_iterations", static_cast<std::uint32_t>(iterations));
+    run(programs_.sums, buffers_.chunk_count);
+    programs_.bodies.dispatch(buffers_.object_count);
+    gl::barrier(gl::Barrier::texture_fetch);
+    if (rows_) {
+        for (const gl::Program* program : rows_->all()) bind_positions(*program, at);
+        rows_->begin.set("row_count", row_count_);
+        rows_->begin.dispatch(row_count_);
+        run(rows_->base, buffers_.chunk_count);
+        run_newton(contact_tuning::kNearBalance);
+    }
+    // Islands without rows go on in the second round.
+    std::uint32_t turn = 0;
+    const std::uint32_t rounds = rows_ ? contact_tuning::kMostLinearisations : 1;
+    for (std::uint32_t round = 0; round < rounds; ++round)
+        turn = run_round(round == 0, rows_ ? iterations : 2 * iterations, turn);
+    run(programs_.finish, buffers_.chunk_count);
+    if (rows_) run_newton(contact_tuning::kBalance);
 }
 
 std::vector<SolveState> StepSystem::states() const {
-    std::vector<SolveState> states(states_.size());
+    const gl::Buffer<SolveState>& both = buffers_.states.values;
+    std::vector<SolveState> states(both.size());
     gl::barrier(gl::Barrier::buffer_update);
-    states_.download(states);
-    states.resize(object_count_);  // after an even number of iterations
+    both.download(states);
+    states.resize(buffers_.object_count);  // after an even number of iterations
     return states;
+}
+
+std::vector<glm::vec4> StepSystem::slips() const {
+    if (row_count_ == 0) return {};
+    std::vector<glm::vec4> slips(buffers_.slips.values.size());
+    gl::barrier(gl::Barrier::buffer_update);
+    buffers_.slips.values.download(slips);
+    slips.resize(row_count_);
+    return slips;
 }
 
 }  // namespace gelatin::gpu

@@ -2,59 +2,77 @@
 
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/implicit/elastic_system.h"
+#include "gpu/implicit/step_buffers.h"
 #include "gpu/node_buffers.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
 
 /// The displacements d of a step as the least of
-///   sum_i m_i / (2 h^2) |x_i + d_i - y_i|^2 + d^T K d / 2 - f^T d,
-/// with elements to second order (ElasticSystem), of each body by itself, by conjugate gradients
-/// preconditioned by the nodes' own blocks and rigid motions: shaders/sim/implicit/solve_bodies.comp,
-/// solve_residual.comp, solve_direction.comp, solve_product.comp. An iteration is three dispatches; what the
-/// host does not know is whether it is needed: one behind the end of the solve does nothing. No contacts so
-/// far. CPU twin: cpu::StepSystem.
+///   sum_i m_i / (2 h^2) |x_i + d_i - y_i|^2 + d^T K d / 2 - f^T d + sum of rows,
+/// with elements to second order (ElasticSystem), and contacts by their law, friction among it. Each island
+/// of bodies with rows in common is solved by itself. Newton's method: on rigid motions alone
+/// (rigid_newton.comp), then on all nodes, with conjugate gradients of three dispatches an iteration
+/// (solve_product.comp, solve_residual.comp, solve_direction.comp), then on rigid motions again. What the
+/// host does not know is what is needed: a dispatch behind the end of an island's solve does nothing to it.
+/// CPU twin: cpu::StepSystem.
 class StepSystem {
 public:
-    explicit StepSystem(const Model& model);
+    /// @param row_capacity most rows of a step; without any, nothing is spent on them
+    explicit StepSystem(const Model& model, std::size_t row_capacity = 0);
 
     ElasticSystem elastic;
-    gl::Buffer<glm::vec4>
-        loads;  ///< m / h^2 (y - x) + f [N]; w: m / h^2 [N/m], 0 where a node is held; [nodes]
-    gl::Buffer<glm::vec4>
-        displacements;         ///< d [m]; input: of held nodes, and a guess; output: of all; [nodes]
-    gl::Buffer<float> enough;  ///< energy by which each may miss its least [J], shape [objects]
-    int iterations = 10;       ///< of conjugate gradients, at most twice
+    /// m / h^2 (y - x) + f [N]; w: m / h^2 [N/m], 0 where a node is held; [nodes]
+    gl::Buffer<glm::vec4>& loads() { return buffers_.loads.values; }
+    /// d [m]; input: of held nodes, and a guess; output: of all; [nodes]
+    gl::Buffer<glm::vec4>& displacements() { return buffers_.displacements.values; }
+    /// Energy by which each may miss its least [J], shape [objects].
+    gl::Buffer<float>& enough() { return buffers_.enough.values; }
+    int iterations = 10;  ///< of conjugate gradients for each linearisation, at most; twice without rows
 
+    /// @param rows of objects; packing::kNone: a plane
+    /// @param islands_of_bodies of each body the least one of its island; packing::kNone: it sleeps, all of
+    /// its nodes are held, and nothing moves it. Of a row one side at least has an island.
+    /// @pre rows.size() <= row_capacity
+    void set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies);
     /// @param at where the part begins; elastic.linearise() was called with it
     /// Ends with the barrier for who reads displacements as storage.
     void solve(const NodeBuffers& at) const;
 
-    /// Of each object after the last solve; blocks until it has ended.
+    /// Of each island after the last solve; blocks until it has ended.
     std::vector<SolveState> states() const;
+    /// Of each row after the last solve, in the order of islands and objects: s [m]; w: what friction holds
+    /// with at most [N]. Blocks, too.
+    std::vector<glm::vec4> slips() const;
 
 private:
+    struct Programs {
+        explicit Programs(const gl::Defines& rows);
+        std::vector<const gl::Program*> all() const;
+        gl::Program sums, bodies, begin, start, first_direction, product, residual, direction, finish;
+    };
+    struct RowPrograms {
+        RowPrograms();
+        std::vector<const gl::Program*> all() const;
+        gl::Program begin, base, newton, move, linearise, begin_again, sum_step, line_search;
+    };
     void bind_buffers() const;
-    void dispatch(const gl::Program& program) const;
+    void run(const gl::Program& program, std::uint32_t groups) const;
+    void run_newton(float tolerance) const;
+    std::uint32_t run_round(bool is_first, int count, std::uint32_t turn) const;
 
-    gl::Program sum_program_, body_program_, begin_program_, residual_program_, direction_program_,
-        product_program_, finish_program_;
-    std::uint32_t object_count_, chunk_count_;
-    gl::TexelTable<Chunk> chunks_;
-    gl::TexelTable<std::uint32_t> chunk_starts_;
-    gl::Buffer<StepBodySums> body_sums_;
-    gl::Buffer<StepBody> bodies_;
-    gl::Buffer<ResidualSums> sums_;
-    gl::Buffer<SolveState> states_;
-    gl::Buffer<float> curvatures_;
-    gl::Buffer<glm::vec4> steps_, residuals_, preconditioned_, products_;
-    gl::BufferTexture load_texels_, displacement_texels_, enough_texels_, body_texels_, step_texels_,
-        preconditioned_texels_, product_texels_;
+    StepBuffers buffers_;
+    Programs programs_;
+    std::optional<RowPrograms> rows_;
+    [[maybe_unused]] std::size_t row_capacity_;
+    std::uint32_t row_count_ = 0;
 };
 
 }  // namespace gelatin::gpu

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "cpu/contact/tuning.h"
 #include "gpu/support/implicit_scenarios.h"
+#include "model/shared_constants.h"
 #include "support/gl_fixture.h"
 
 namespace gelatin {
@@ -15,6 +17,21 @@ INSTANTIATE_TEST_SUITE_P(All, StepSystemParityTest, ::testing::ValuesIn(test::st
 
 TEST_P(StepSystemParityTest, MatchesTheDoubleReference) {
     EXPECT_LE(GetParam().error(), 1.0);
+}
+
+TEST(ContactTuning, IsThatOfTheCpu) {
+    namespace gpu = contact_tuning;
+    namespace cpu = cpu::tuning;
+    EXPECT_EQ(gpu::kLinearGap, static_cast<float>(cpu::kLinearGap));
+    EXPECT_EQ(gpu::kChordGap, static_cast<float>(cpu::kChordGap));
+    EXPECT_EQ(gpu::kNearBalance, static_cast<float>(cpu::kNearBalance));
+    EXPECT_EQ(gpu::kBalance, static_cast<float>(cpu::kBalance));
+    EXPECT_EQ(gpu::kTurned, static_cast<float>(cpu::kTurned));
+    EXPECT_EQ(gpu::kRigidForcing, static_cast<float>(cpu::kRigidForcing));
+    EXPECT_EQ(gpu::kForcing, static_cast<float>(cpu::kForcing));
+    EXPECT_EQ(gpu::kMostRounds, static_cast<std::uint32_t>(cpu::kMostRounds));
+    EXPECT_EQ(gpu::kMostRigidIterations, static_cast<std::uint32_t>(cpu::kMostRigidIterations));
+    EXPECT_EQ(gpu::kMostLinearisations, static_cast<std::uint32_t>(cpu::kMostLinearisations));
 }
 
 class StepSystemOnGpuTest : public test::GlTest {};

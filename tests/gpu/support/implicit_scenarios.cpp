@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,9 +15,12 @@
 #include "cpu/implicit/step_system.h"
 #include "gpu/implicit/elastic_system.h"
 #include "gpu/implicit/step_system.h"
+#include "model/shared_constants.h"
+#include "support/contact_scenes.h"
 #include "support/converted.h"
 #include "support/elastic_cases.h"
 #include "support/parity.h"
+#include "support/random_maker.h"
 
 namespace gelatin::test {
 namespace {
@@ -95,60 +99,113 @@ double elastic_error(const Model& model) {
                      error_of(actual.products, expected.products, 1e-5)});
 }
 
-// What a system is solved for: bodies that are pushed and pulled at random.
+// What a system is solved for: bodies that are pushed and pulled at random, with rows or without.
 struct SolveCase {
-    Model model;
+    std::shared_ptr<const Model> model;
     int iterations;
     float enough;  // [J]
+    std::vector<cpu::ContactRow<double>> rows{};
+    std::vector<std::uint32_t> islands{};  // of bodies; none: a body each
+    std::vector<std::uint8_t> asleep{};    // bodies, after a solve in which none is
+    float push = 0.01f;                    // how far bodies would go [m]
 };
 
 struct SolveInput {
     std::vector<glm::vec4> loads, guesses;  // w of loads: m / h^2, 0 where a node is held
+    std::vector<std::uint32_t> islands;
 };
 
 struct SolveResult {
     std::vector<glm::dvec3> displacements;
+    std::vector<double> limits;  // of rows
     std::uint32_t iterations;
 };
 
-SolveInput solve_input(const Model& model) {
+SolveInput solve_input(const SolveCase& at) {
+    const Model& model = *at.model;
     const std::vector<cpu::Vec3<float>> pushes = random_field<float>(model.node_count(), 2),
                                         guesses = random_field<float>(model.node_count(), 3);
     SolveInput input;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         const float w = model.positions[n].w, inertia = w > 0.0f ? kInverseStep * kInverseStep / w : 0.0f;
         // Those of a body have much in common.
-        input.loads.emplace_back(0.01f * inertia * (glm::vec3(0.5f, -1.0f, 0.2f) + 0.3f * pushes[n]),
+        input.loads.emplace_back(at.push * inertia * (glm::vec3(0.5f, -1.0f, 0.2f) + 0.3f * pushes[n]),
                                  inertia);
         input.guesses.emplace_back(0.003f * guesses[n], 0.0f);
+    }
+    input.islands = at.islands;
+    for (std::uint32_t o = 0; o < at.asleep.size(); ++o) {
+        if (at.asleep[o] == 0) continue;
+        const Range& nodes = model.objects[o].nodes;
+        std::fill_n(input.loads.begin() + nodes.first, nodes.count, glm::vec4(0.0f));
+        std::fill_n(input.guesses.begin() + nodes.first, nodes.count, glm::vec4(0.0f));
+    }
+    if (input.islands.empty()) {
+        input.islands.resize(model.body_count());
+        std::iota(input.islands.begin(), input.islands.end(), 0u);
     }
     return input;
 }
 
+StepRow converted_row(const cpu::ContactRow<double>& row) {
+    const auto& [a, b, c, d] = row.nodes;
+    const auto& w = row.weights;
+    return {a,
+            b,
+            c,
+            d,
+            glm::vec4(w[0], w[1], w[2], w[3]),
+            glm::vec4(row.normal, row.gap),
+            static_cast<float>(row.reach),
+            static_cast<float>(row.stiffness),
+            static_cast<float>(row.damping),
+            static_cast<float>(row.friction),
+            glm::vec4(row.hold, row.limit),
+            row.object,
+            row.other,
+            0,
+            0};
+}
+
 SolveResult solve_on_gpu(const SolveCase& at) {
-    const Model& model = at.model;
+    const Model& model = *at.model;
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
-    gpu::StepSystem system(model);
-    const SolveInput input = solve_input(model);
-    system.loads.upload(input.loads);
-    system.displacements.upload(input.guesses);
-    system.enough.upload(std::vector<float>(model.objects.size(), at.enough));
+    gpu::StepSystem system(model, at.rows.empty() ? 0 : at.rows.size() + 3);
+    system.enough().upload(std::vector<float>(model.objects.size(), at.enough));
     system.iterations = at.iterations;
+    std::vector<StepRow> rows;
+    for (const cpu::ContactRow<double>& row : at.rows) rows.push_back(converted_row(row));
     system.elastic.linearise(buffers, nodes, kInverseStep);
-    system.solve(nodes);
+    const auto solve = [&](const SolveCase& some) {
+        SolveInput input = solve_input(some);
+        for (std::size_t o = 0; o < some.asleep.size(); ++o)
+            if (some.asleep[o] != 0) input.islands[o] = packing::kNone;
+        system.loads().upload(input.loads);
+        system.displacements().upload(input.guesses);
+        system.set_rows(rows, input.islands);
+        system.solve(nodes);
+    };
+    if (!at.asleep.empty()) {
+        SolveCase awake = at;
+        awake.asleep.clear();
+        solve(awake);
+        gl::barrier(gl::Barrier::buffer_update);
+    }
+    solve(at);
     SolveResult result;
+    for (const glm::vec4& slip : system.slips()) result.limits.push_back(static_cast<double>(slip.w));
     result.iterations = 0;
     for (const SolveState& state : system.states()) result.iterations += state.iterations;
     std::vector<glm::vec4> values(model.node_count());
-    system.displacements.download(values);
+    system.displacements().download(values);
     result.displacements = xyz_of(values);
     return result;
 }
 
 SolveResult solve_reference(const SolveCase& at) {
-    const auto model = std::make_shared<const Model>(at.model);
-    const SolveInput input = solve_input(*model);
+    const auto& model = at.model;
+    const SolveInput input = solve_input(at);
     const std::vector<glm::dvec4> positions = converted<double>(model->positions);
     cpu::StepSystem<double> system(model);
     for (std::uint32_t n = 0; n < model->node_count(); ++n) {
@@ -158,19 +215,117 @@ SolveResult solve_reference(const SolveCase& at) {
     }
     std::fill(system.enough.begin(), system.enough.end(), static_cast<double>(at.enough));
     system.iterations = at.iterations;
+    system.rows = at.rows;
+    if (!at.asleep.empty()) system.leave_out(at.asleep);
     system.elastic.linearise(positions, converted<double>(model->velocities), kInverseStep);
     system.rigid.begin(positions, system.inertia);
-    std::vector<std::uint32_t> islands(model->body_count());  // a body each
-    std::iota(islands.begin(), islands.end(), 0u);
-    system.solve(islands);
-    return {system.displacements, static_cast<std::uint32_t>(system.counts.iterations)};
+    system.solve(input.islands);
+    SolveResult result{system.displacements, {}, static_cast<std::uint32_t>(system.counts.iterations)};
+    for (const cpu::ContactRow<double>& row : system.rows) result.limits.push_back(row.limit);
+    return result;
+}
+
+// Of limits, over a hundredth of the greatest.
+double error_of_limits(const std::vector<double>& actual, const std::vector<double>& expected) {
+    double worst = 0.0, greatest = 0.0;
+    for (std::size_t r = 0; r < expected.size(); ++r) {
+        worst = std::max(worst, std::abs(actual[r] - expected[r]));
+        greatest = std::max(greatest, expected[r]);
+    }
+    return worst > 0.0 ? worst / (0.01 * greatest) : 0.0;
 }
 
 double solve_error(const SolveCase& at) {
     const SolveResult actual = solve_on_gpu(at), expected = solve_reference(at);
-    return actual.iterations == expected.iterations
-               ? error_of(actual.displacements, expected.displacements, 1e-3)
-               : std::numeric_limits<double>::infinity();
+    if (actual.iterations != expected.iterations) return std::numeric_limits<double>::infinity();
+    return std::max(error_of(actual.displacements, expected.displacements, 1e-4),
+                    error_of_limits(actual.limits, expected.limits));
+}
+
+// Contacts of blocks, with numbers that float has, too.
+class RowMaker {
+public:
+    explicit RowMaker(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+
+    /// @param object kNoNode: a plane
+    void add(std::uint32_t object, std::uint32_t other, int count, const glm::dvec3& normal,
+             double friction) {
+        for (int k = 0; k < count; ++k) {
+            cpu::ContactRow<double> row;
+            row.object = object;
+            row.other = other;
+            row.normal = glm::dvec3(glm::vec3(glm::normalize(normal + random_.point(0.1))));
+            row.reach = number(4e-3, 8e-3);
+            row.gap = row.reach * number(0.02, 1.5);
+            row.stiffness = number(1e4, 1e5);
+            row.damping = k % 3 == 0 ? number(0.0, 1e3) : 0.0;
+            row.friction = number(0.5 * friction, friction);
+            if (friction > 0.0) {
+                row.hold = glm::dvec3(glm::vec3(glm::cross(row.normal, random_.point(5.0))));
+                row.limit = number(0.0, 10.0);
+            }
+            if (object != kNoNode) add_nodes(object, -1.0, k % 3, row);
+            add_nodes(other, 1.0, (k + 1) % 2, row);
+            rows.push_back(row);
+        }
+    }
+
+    std::vector<cpu::ContactRow<double>> rows;
+
+private:
+    double number(double low, double high) { return static_cast<float>(random_.uniform(low, high)); }
+    // Of one side, one node or two.
+    void add_nodes(std::uint32_t object, double sign, int kind, cpu::ContactRow<double>& row) {
+        const Range& nodes = model_->objects[object].nodes;
+        const auto node = static_cast<std::uint32_t>(random_.integer(0, static_cast<int>(nodes.count) - 2));
+        const double part = kind == 0 ? 1.0 : 0.25;
+        for (std::uint32_t k = 0; k < (kind == 0 ? 1u : 2u); ++k) {
+            row.nodes[row.count] = nodes.first + node + k;
+            row.weights[row.count++] = sign * (k == 0 ? part : 1.0 - part);
+        }
+    }
+
+    std::shared_ptr<const Model> model_;
+    RandomMaker random_{7};
+};
+
+const glm::dvec3 kUp(0.0, 1.0, 0.0), kAlong(1.0, 0.0, 0.0);
+
+// Three blocks of an island on a plane, the second above the first; a block alone; two blocks of another
+// island.
+SolveCase several_islands(double friction, int rows, bool is_held) {
+    std::vector<Block> blocks{{},
+                              {.place = {0, 0.31, 0}},
+                              {.place = {0.31, 0, 0}},
+                              {.place = {2, 0, 0}},
+                              {.place = {4, 0, 0}},
+                              {.place = {4.31, 0, 0}}};
+    if (is_held) blocks[2].pins = {HalfSpaceRegion{{0.0, -1.0, 0.0}, -0.2}};
+    SolveCase at{make_blocks(blocks, {0, -10, 0}), 30, 1e-7f, {}, {0, 0, 0, 3, 4, 4}};
+    RowMaker maker(at.model);
+    maker.add(kNoNode, 0, rows, kUp, friction);
+    maker.add(4, 5, rows, kAlong, friction);
+    maker.add(0, 1, 2 * rows, kUp, friction);
+    maker.add(kNoNode, 2, rows, kUp, friction);
+    maker.add(2, 1, rows / 2, kUp, friction);
+    maker.add(0, 2, rows, kAlong, friction);
+    maker.add(1, 1, 3, kAlong, friction);
+    at.rows = maker.rows;
+    return at;
+}
+
+// Of six soft blocks on a plane, pushed far into each other.
+SolveCase stack(double friction) {
+    std::vector<Block> blocks;
+    for (int k = 0; k < 6; ++k)
+        blocks.push_back({.place = {0.02 * k, 0.301 * k, 0.0}, .youngs_modulus = 2e4});
+    SolveCase at{make_blocks(blocks, {0, -10, 0}), 10, 1e-6f, {}, {0, 0, 0, 0, 0, 0}};
+    at.push = 0.05f;
+    RowMaker maker(at.model);
+    maker.add(kNoNode, 0, 40, kUp, friction);
+    for (std::uint32_t k = 0; k < 5; ++k) maker.add(k, k + 1, 40, kUp, friction);
+    at.rows = maker.rows;
+    return at;
 }
 
 }  // namespace
@@ -194,9 +349,37 @@ Scenarios elastic_system_scenarios() {
 
 Scenarios step_system_scenarios() {
     Scenarios scenarios;
+    for (const double friction : {0.0, 0.4})
+        for (const bool is_held : {false, true})
+            for (const int rows : {6, 60})
+                scenarios.push_back({std::string("rows") + (friction > 0.0 ? "_with_friction" : "") +
+                                         (is_held ? "_with_a_held_body" : "") +
+                                         (rows > 6 ? "_of_several_chunks" : ""),
+                                     [=] { return solve_error(several_islands(friction, rows, is_held)); }});
+    scenarios.push_back({"rows_after_few_iterations", [] {
+                             SolveCase at = several_islands(0.4, 20, false);
+                             at.iterations = 2;
+                             return solve_error(at);
+                         }});
+    scenarios.push_back(
+        {"rows_of_what_was_solved_before_and_sleeps", [] {
+             SolveCase at = several_islands(0.4, 20, false);
+             at.asleep = {0, 0, 1, 0, 0, 1};
+             std::erase_if(at.rows, [](const auto& row) { return row.object == kNoNode && row.other == 2; });
+             return solve_error(at);
+         }});
+    scenarios.push_back({"rows_of_what_is_enough_at_once", [] {
+                             SolveCase at = several_islands(0.4, 20, false);
+                             at.enough = 1e9f;
+                             return solve_error(at);
+                         }});
+    for (const double friction : {0.0, 0.6})
+        scenarios.push_back(
+            {friction > 0.0 ? "stack_with_friction" : "stack", [=] { return solve_error(stack(friction)); }});
     for (const ElasticCase& at : elastic_cases()) {
-        Model model = at.model;
-        shake_nodes(model, 0.003f);
+        Model shaken = at.model;
+        shake_nodes(shaken, 0.003f);
+        const auto model = std::make_shared<const Model>(std::move(shaken));
         scenarios.push_back({at.name, [model] { return solve_error({model, 3, 0.0f}); }});
         scenarios.push_back({at.name + "_to_the_end", [model] { return solve_error({model, 30, 1e-5f}); }});
     }
@@ -204,12 +387,15 @@ Scenarios step_system_scenarios() {
 }
 
 bool solves_repeat() {
-    const SolveCase at{elastic_cases().back().model, 10, 0.0f};
+    const SolveCase at = several_islands(0.4, 60, false);
     return solve_on_gpu(at).displacements == solve_on_gpu(at).displacements;
 }
 
 void run_implicit_programs() {
-    solve_on_gpu({make_elastic_block(MaterialModel::mass_spring, 0.4), 2, 0.0f});
+    solve_on_gpu({make_blocks({{}}), 2, 0.0f});
+    SolveCase with_rows = several_islands(0.4, 2, false);
+    with_rows.iterations = 1;
+    solve_on_gpu(with_rows);
     for (const ElasticCase& at : elastic_cases()) elastic_on_gpu(at.model);
 }
 

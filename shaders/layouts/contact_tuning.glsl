@@ -1,0 +1,14 @@
+// Compiled twice: as GLSL and as C++ (src/model/shared_constants.h).
+// The numbers of cpu/contact/tuning.h that shaders need; tests/gpu/implicit/step_system_test.cpp compares them.
+const float kLinearGap = 0.1;
+const float kChordGap = 0.25;
+const float kNearBalance = 0.1;
+const float kBalance = 1e-3;
+const float kTurned = 0.1;
+const uint kMostRounds = 20u;
+const float kRigidForcing = 1e-8;
+const uint kMostRigidIterations = 200u;
+const uint kMostLinearisations = 4u;
+const float kForcing = 0.05;
+// A sum over rows begins with so many at most.
+const uint kRowsOfChunk = 16u;

@@ -1,0 +1,20 @@
+// Sums over a work group of kLanes, in a fixed order; all of its invocations get the same bits. Between two calls of one function no
+// barrier is needed: what one reads after its last barrier the next writes after its first.
+shared vec4 lane_parts[kLanes], row_parts[kLanes / 16u];
+
+vec4 sum_over_group(vec4 own) {
+    uint lane = gl_LocalInvocationID.x;
+    lane_parts[lane] = own;
+    barrier();
+    if (lane < kLanes / 16u) {
+        vec4 sum = vec4(0.0);
+        for (uint k = 16u * lane; k < 16u * lane + 16u; ++k) sum += lane_parts[k];
+        row_parts[lane] = sum;
+    }
+    barrier();
+    vec4 sum = vec4(0.0);
+    for (uint k = 0u; k < kLanes / 16u; ++k) sum += row_parts[k];
+    return sum;
+}
+
+float sum_over_group(float own) { return sum_over_group(vec4(own, 0.0, 0.0, 0.0)).x; }

@@ -1,0 +1,162 @@
+#include "gpu/implicit/step_buffers.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "gpu/chunks.h"
+
+namespace gelatin::gpu {
+namespace {
+
+constexpr std::size_t kVectors = 7, kMatrixSums = 18, kPairSums = 21;  // as in shaders
+
+std::vector<float> weights_of(const Model& model) {
+    std::vector<float> weights;
+    const double gravity = glm::length(glm::dvec3(model.gravity));
+    for (const ModelObject& object : model.objects)
+        weights.push_back(static_cast<float>(gravity * object.mass));
+    return weights;
+}
+
+}  // namespace
+
+StepBuffers::StepBuffers(const Model& model, std::size_t row_capacity)
+    : object_count(static_cast<std::uint32_t>(model.objects.size())),
+      has_rows_(row_capacity > 0),
+      weights_(weights_of(model), gl::TexelFormat::r32f) {
+    const auto rgba32f = gl::TexelFormat::rgba32f, rgba32ui = gl::TexelFormat::rgba32ui;
+    const auto r32f = gl::TexelFormat::r32f, r32ui = gl::TexelFormat::r32ui;
+    const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
+    const std::size_t nodes = model.positions.size(), objects = object_count;
+    chunk_count = static_cast<std::uint32_t>(chunks.size());
+    sizes_ = {object_count, model.node_count(), chunk_starts(chunks, objects)};
+    chunks_ = {chunks, rgba32ui};
+    chunk_starts_ = {sizes_.chunk_starts, r32ui};
+    for (StepBuffer<glm::vec4>* field :
+         {&loads, &displacements, &steps, &residuals, &preconditioned, &products, &bases})
+        *field = {nodes, rgba32f};
+    blocks_ = {nodes, rgba32f};
+    enough = {objects, r32f};
+    vectors = {kVectors * (objects + 1), rgba32f};
+    body_motions = {objects, rgba32f};
+    body_forces_ = {2 * objects, rgba32f};
+    bodies_ = {objects, rgba32f};
+    inverses_ = {objects, rgba32f};
+    states = {2 * objects, rgba32ui};
+    parts_ = {objects, r32f};
+    islands_ = {objects, rgba32ui};
+    for (StepBuffer<std::uint32_t>* table : {&island_of_object_, &island_bodies_}) *table = {objects, r32ui};
+    coupling_starts_ = {objects + 1, r32ui};
+    body_sums_ = {chunks.size(), rgba32f};
+    for (StepBuffer<ResidualSums>* sums : {&base_sums, &sums_, &product_sums_})
+        *sums = {chunks.size(), rgba32f};
+    lacks_ = {chunks.size(), r32f};
+    step_sums_ = {chunks.size(), gl::TexelFormat::rg32f};
+    island_chunks_ = {chunks.size(), r32ui};
+    rows_ = {row_capacity, rgba32ui};
+    entry_starts_ = {row_capacity > 0 ? nodes + 1 : 0, r32ui};
+    row_entries_ = {4 * row_capacity, r32ui};
+    couplings_ = {2 * row_capacity, r32ui};
+    pairs_ = {row_capacity, rgba32ui};
+    row_chunks_ = {row_capacity, gl::TexelFormat::rg32ui};
+    tangents_ = {row_capacity, rgba32f};
+    for (StepBuffer<glm::vec4>* values : {&slips, &expected_, &changes_}) *values = {row_capacity, rgba32f};
+    arms_ = {2 * row_capacity, rgba32f};
+    row_sums_ = {kMatrixSums * row_capacity, rgba32f};
+    pair_sums_ = {kPairSums * row_capacity, rgba32f};
+}
+
+void StepBuffers::set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies) {
+    const RowTables tables = make_row_tables(sizes_, rows, islands_of_bodies);
+    islands_.values.upload(tables.islands);
+    island_of_object_.values.upload(tables.island_of_object);
+    island_bodies_.values.upload(tables.island_bodies);
+    island_chunks_.values.upload(tables.island_chunks);
+    parts_.values.upload(std::vector<float>(object_count, 1.0f));
+    if (!has_rows_) return;
+    coupling_starts_.values.upload(tables.coupling_starts);
+    couplings_.values.upload(tables.couplings);
+    entry_starts_.values.upload(tables.entry_starts);
+    row_entries_.values.upload(tables.row_entries);
+    pairs_.values.upload(tables.pairs);
+    row_chunks_.values.upload(tables.row_chunks);
+    rows_.values.upload(tables.rows);
+}
+
+namespace {
+
+// A buffer to a block or a sampler, if the program has it.
+template <class T>
+void bind_block(const gl::Program& program, std::string_view name, const StepBuffer<T>& buffer) {
+    if (program.declares(name)) program.bind(name, buffer.values);
+}
+template <class Texels>
+void bind_texels(const gl::Program& program, std::string_view name, const Texels& texels) {
+    if (program.declares(name)) program.bind(name, texels);
+}
+template <class T>
+void bind_both(const gl::Program& program, std::string_view block, std::string_view sampler,
+               const StepBuffer<T>& buffer) {
+    bind_block(program, block, buffer);
+    bind_texels(program, sampler, buffer.texels);
+}
+
+}  // namespace
+
+void StepBuffers::bind(const gl::Program& program) const {
+    program.set("chunk_count", chunk_count);
+    program.set("object_count", object_count);
+    bind_texels(program, "chunks", chunks_);
+    bind_texels(program, "chunk_starts", chunk_starts_);
+    bind_texels(program, "loads", loads.texels);
+    bind_both(program, "Displacements", "displacements", displacements);
+    bind_both(program, "Steps", "steps", steps);
+    bind_both(program, "Residuals", "residuals", residuals);
+    bind_both(program, "Preconditioned", "preconditioned", preconditioned);
+    bind_both(program, "Products", "products", products);
+    bind_both(program, "Bases", "bases", bases);
+    bind_both(program, "Blocks", "blocks", blocks_);
+    bind_block(program, "Sums", sums_);
+    bind_block(program, "ProductSums", product_sums_);
+    bind_block(program, "StepSums", step_sums_);
+    bind_block(program, "Lacks", lacks_);
+    bind_bodies(program);
+    bind_rows(program);
+}
+
+void StepBuffers::bind_bodies(const gl::Program& program) const {
+    bind_texels(program, "enough", enough.texels);
+    bind_texels(program, "weights", weights_);
+    bind_block(program, "BodySums", body_sums_);
+    bind_both(program, "Bodies", "bodies", bodies_);
+    bind_both(program, "Inverses", "inverses", inverses_);
+    bind_both(program, "Vectors", "motions", vectors);  // motions are the first of them
+    bind_both(program, "BodyMotions", "body_motions", body_motions);
+    bind_block(program, "BodyForces", body_forces_);
+    bind_both(program, "BaseSums", "base_sums", base_sums);
+    bind_both(program, "States", "states", states);
+    bind_both(program, "Parts", "parts", parts_);
+    bind_texels(program, "islands", islands_.texels);
+    bind_texels(program, "island_of_object", island_of_object_.texels);
+    bind_texels(program, "island_bodies", island_bodies_.texels);
+    bind_texels(program, "island_chunks", island_chunks_.texels);
+}
+
+void StepBuffers::bind_rows(const gl::Program& program) const {
+    bind_block(program, "Rows", rows_);
+    bind_both(program, "Slips", "slips", slips);
+    bind_both(program, "Expected", "expected", expected_);
+    bind_both(program, "Arms", "arms", arms_);
+    bind_block(program, "Changes", changes_);
+    bind_block(program, "RowSums", row_sums_);
+    bind_block(program, "PairSums", pair_sums_);
+    bind_both(program, "Tangents", "tangents", tangents_);
+    bind_texels(program, "pairs", pairs_.texels);
+    bind_texels(program, "row_chunks", row_chunks_.texels);
+    bind_texels(program, "coupling_starts", coupling_starts_.texels);
+    bind_texels(program, "couplings", couplings_.texels);
+    bind_texels(program, "entry_starts", entry_starts_.texels);
+    bind_texels(program, "row_entries", row_entries_.texels);
+}
+
+}  // namespace gelatin::gpu

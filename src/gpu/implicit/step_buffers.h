@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gpu/implicit/row_tables.h"
+#include "model/model.h"
+
+namespace gelatin::gpu {
+
+/// A buffer that programs write as a block, and read as one or as texels.
+template <class T>
+struct StepBuffer {
+    StepBuffer() = default;
+    /// Zero at first.
+    StepBuffer(std::size_t size, gl::TexelFormat format)
+        : values(std::vector<T>(std::max<std::size_t>(size, 1))), texels(values, format) {}
+
+    gl::Buffer<T> values;
+    gl::BufferTexture texels;
+};
+
+/// All that the programs of a StepSystem share. Each is known by the name of its block and that of its
+/// sampler in shaders/sim/implicit/.
+class StepBuffers {
+public:
+    /// @param row_capacity most rows of a step
+    StepBuffers(const Model& model, std::size_t row_capacity);
+
+    /// What the program's source names; but for what is bound to it by another name.
+    void bind(const gl::Program& program) const;
+    /// As StepSystem has it.
+    void set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies);
+
+    std::uint32_t object_count, chunk_count;
+    StepBuffer<glm::vec4> loads, displacements;                               ///< by node, as in StepSystem
+    StepBuffer<float> enough;                                                 ///< by object
+    StepBuffer<glm::vec4> steps, residuals, preconditioned, products, bases;  ///< by node
+    StepBuffer<BodyMotion> vectors, body_motions;                             ///< by object
+    StepBuffer<SolveState> states;                                            ///< by island, two by turns
+    StepBuffer<glm::vec4> slips;         ///< by row: s [m]; w: limit of friction [N]
+    StepBuffer<ResidualSums> base_sums;  ///< by chunk
+
+private:
+    void bind_bodies(const gl::Program& program) const;
+    void bind_rows(const gl::Program& program) const;
+
+    bool has_rows_;
+    RowTableSizes sizes_;
+    gl::TexelTable<Chunk> chunks_;
+    gl::TexelTable<std::uint32_t> chunk_starts_;
+    gl::TexelTable<float> weights_;
+    StepBuffer<StepBodySums> body_sums_;
+    StepBuffer<StepBody> bodies_;
+    StepBuffer<BodyInverse> inverses_;
+    StepBuffer<NodeBlock> blocks_;
+    StepBuffer<ResidualSums> sums_, product_sums_;
+    StepBuffer<BodyMotion> body_forces_;
+    StepBuffer<float> lacks_, parts_;
+    StepBuffer<glm::vec2> step_sums_;
+    StepBuffer<StepIsland> islands_;
+    StepBuffer<std::uint32_t> island_of_object_, island_bodies_, island_chunks_, coupling_starts_, couplings_,
+        entry_starts_, row_entries_;
+    StepBuffer<StepPair> pairs_;
+    StepBuffer<glm::uvec2> row_chunks_;
+    StepBuffer<StepRow> rows_;
+    StepBuffer<glm::vec4> expected_, changes_, arms_, row_sums_, pair_sums_;
+    StepBuffer<StepTangent> tangents_;
+};
+
+}  // namespace gelatin::gpu
