@@ -10,18 +10,30 @@
 #include "gpu/support/implicit_scenarios.h"
 #include "gpu/support/solver_scenarios.h"
 #include "mutants/collision_mutants.h"
+#include "mutants/implicit_mutants.h"
 #include "mutants/solver_mutants.h"
 
 namespace gelatin::test {
 namespace {
 
-TEST_P(MutantsTest, IsCaught) {
-    const BrokenShader broken(GetParam().mutant);
-    const Scenarios& scenarios = GetParam().scenarios;
-    EXPECT_TRUE(std::any_of(scenarios.begin(), scenarios.end(),
+void expect_is_caught(const MutantCase& at) {
+    const BrokenShader broken(at.mutant);
+    EXPECT_TRUE(std::any_of(at.scenarios.begin(), at.scenarios.end(),
                             [](const Scenario& scenario) { return !(scenario.error() <= 1.0); }))
-        << "all " << scenarios.size() << " scenarios pass with the broken kernel";
+        << "all " << at.scenarios.size() << " scenarios pass with the broken kernel";
 }
+
+TEST_P(MutantsTest, IsCaught) {
+    expect_is_caught(GetParam());
+}
+
+class MutantsLong : public MutantsTest {};
+
+TEST_P(MutantsLong, IsCaught) {
+    expect_is_caught(GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(StepRows, MutantsLong,
+                         ::testing::ValuesIn(cases(kStepRowMutants, step_system_scenarios())), name_of_case);
 
 #define INSTANTIATE_MUTANTS(name, mutants, scenarios) \
     INSTANTIATE_TEST_SUITE_P(name, MutantsTest, ::testing::ValuesIn(cases(mutants, scenarios)), name_of_case)

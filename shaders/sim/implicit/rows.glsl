@@ -98,6 +98,7 @@ StepTangent chord_at(StepRow row, vec3 s, float limit) {
     if (limit > 0.0) {
         StepRow friction = row;  // that never presses
         friction.reach = 0.0;
+        friction.damping = 0.0;
         friction.normal.w = 1.0;
         StepTangent f = tangent_at(friction, s, limit);
         t.constant += f.constant;
