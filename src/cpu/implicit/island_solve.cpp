@@ -298,7 +298,7 @@ SolveCounts IslandSolve<Real>::run() {
         nodes_.for_each([&](std::uint32_t n) {
             system_.base_[n] = system_.loads[n] - system_.inertia[n] * system_.displacements[n];
         });
-        rigid_newton(tuning::kNearBalance);
+        rigid_newton(tuning::kBalance);
     }
     nodes_.for_each(
         [&](std::uint32_t n) { system_.elastic.displacements[n] = Vec4<Real>(system_.displacements[n], 0); });

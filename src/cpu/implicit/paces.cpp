@@ -64,6 +64,7 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
         }
         any_goes_on = any_goes_on || goes_on;
     }
+    scheme.tie(islands.of_bodies);
     for (ContactRow<Real>& row : rows) {
         const std::uint32_t body = model_->is_body(row.other) ? row.other : row.object;
         row.damping = scheme.of(body).damping / step * row.slope_of(row.gap);

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "cpu/contact/tuning.h"
 #include "cpu/descent/rigid_inertia.h"
 #include "model/for_each_index.h"
@@ -15,8 +17,10 @@ TimeScheme<Real>::TimeScheme(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       object_of_(objects_of_nodes(*model_)),
       schemes_(model_->objects.size()),
+      tied_(model_->body_count()),
       momenta_(model_->body_count()),
       rates_(model_->body_count()) {
+    forget();
     for (const ModelObject& body : model_->bodies()) {
         double volume = 0.0, stiffness = 0.0;  // of bulk moduli, times volumes [J]
         for (std::uint32_t t = body.tets.first; t < body.tets.end(); ++t) {
@@ -29,10 +33,33 @@ TimeScheme<Real>::TimeScheme(std::shared_ptr<const Model> model)
 }
 
 template <class Real>
+void TimeScheme<Real>::forget() {
+    last_step_ = Real(0);
+    std::iota(tied_.begin(), tied_.end(), 0u);
+    next_tied_ = tied_;
+}
+
+template <class Real>
+void TimeScheme<Real>::tie(std::span<const std::uint32_t> islands_of_bodies) {
+    std::vector<std::uint8_t> any_past(tied_.size()), any_euler(tied_.size());
+    for (std::size_t o = 0; o < tied_.size(); ++o)
+        (schemes_[o].past > Real(0) ? any_past : any_euler)[tied_[o]] = 1;
+    DisjointSets sets(tied_.size());
+    for (std::uint32_t o = 0; o < tied_.size(); ++o) {
+        const std::uint32_t least = tied_[o];
+        schemes_[o].is_whole = any_past[least] != 0 && any_euler[least] != 0;
+        if (any_euler[least] == 0) sets.unite(o, least);
+        sets.unite(o, islands_of_bodies[o]);
+    }
+    for (std::uint32_t o = 0; o < tied_.size(); ++o) next_tied_[o] = sets.least(o);
+}
+
+template <class Real>
 void TimeScheme<Real>::archive(Archive& archive) {
     archive.value(last_step_);
     archive.list(accelerations_);
     archive.array(rates_);
+    archive.array(tied_);
     if (has_past() && accelerations_.size() != model_->node_count()) archive.fail();
 }
 
@@ -63,14 +90,16 @@ void TimeScheme<Real>::end(const Nodes<Real>& previous, const Nodes<Real>& curre
     for_each_index(0, momenta_.size(), 1, [&](std::size_t o) {
         const Scheme& s = schemes_[o];
         const Momenta now = momenta(o, current.positions, current.velocities), before = rates_[o];
+        const double past = s.is_whole ? 0.0 : static_cast<double>(s.past * (Real(1) - s.gamma)),
+                     gamma = s.is_whole ? 1.0 : static_cast<double>(s.gamma);
         const auto rate = [&](glm::dvec3 Momenta::*part) {
-            return ((now.*part - momenta_[o].*part) / static_cast<double>(s.length) -
-                    static_cast<double>(s.past * (Real(1) - s.gamma)) * (before.*part)) /
-                   static_cast<double>(s.gamma);
+            return ((now.*part - momenta_[o].*part) / static_cast<double>(s.length) - past * (before.*part)) /
+                   gamma;
         };
         rates_[o] = {rate(&Momenta::linear), rate(&Momenta::angular)};
     });
     last_step_ = schemes_[0].length;
+    tied_ = next_tied_;
 }
 
 template <class Real>
@@ -151,8 +180,9 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
                      glm::dvec3(forces[n]));
         const RigidInertia inertia(sums);
         const Scheme& s = schemes_[o];
-        const auto h = static_cast<double>(s.length), past = static_cast<double>(s.past),
-                   alpha = static_cast<double>(s.alpha), gamma = static_cast<double>(s.gamma);
+        const auto h = static_cast<double>(s.length), past = s.is_whole ? 0.0 : static_cast<double>(s.past),
+                   alpha = s.is_whole ? 0.0 : static_cast<double>(s.alpha),
+                   gamma = s.is_whole ? 1.0 : static_cast<double>(s.gamma);
         const Momenta forces_now{sums.force + glm::dvec3(model_->gravity) / inertia.inverse_mass,
                                  sums.moment - glm::cross(inertia.center, sums.force)};
         const Momenta &had = momenta_[o], &before = rates_[o];

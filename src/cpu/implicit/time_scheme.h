@@ -28,12 +28,13 @@ public:
         Real past = 0;                        ///< what a_0 counts by: 1, or 0 with Euler's scheme
         Real alpha = 0, beta = 1, gamma = 1;  ///< as above
         Real damping = 0;                     ///< the least damping time [s]
+        bool is_whole = false;  ///< momenta change by what acts at the end alone, as with Euler's scheme
     };
 
     explicit TimeScheme(std::shared_ptr<const Model> model);
 
     /// Nodes were set from outside.
-    void forget() { last_step_ = Real(0); }
+    void forget();
     void archive(Archive& archive);
     /// After it. @param nodes where the next step begins @param earlier_velocities a step before, whose
     /// length was so much [s]
@@ -50,6 +51,10 @@ public:
     /// Or the other.
     void set_second_order(std::size_t object, Real step);
     const Scheme& of(std::size_t object) const { return schemes_[object]; }
+    /// When all schemes are set. Of a force this scheme leaves a part to later steps, of a body and of what
+    /// it touched alike. So where bodies that touched each other go on by different schemes, what is left is
+    /// dropped for all of them. @param islands_of_bodies of each body the least one of its island
+    void tie(std::span<const std::uint32_t> islands_of_bodies);
     /// y - x of a node [m]. @param acceleration g [m/s^2]
     Vec3<Real> target(const Nodes<Real>& previous, std::size_t node, const Vec3<Real>& acceleration) const;
     /// At the end, if it was displaced by so much [m/s].
@@ -77,8 +82,9 @@ private:
     std::vector<Real> wave_times_;          // by body [s]
     std::vector<Scheme> schemes_;           // by object
     Real last_step_ = 0;
-    std::vector<Vec3<Real>> accelerations_;  // a_0 [m/s^2]
-    std::vector<Momenta> momenta_, rates_;   // of bodies when the step began, and how fast they changed
+    std::vector<Vec3<Real>> accelerations_;        // a_0 [m/s^2]
+    std::vector<std::uint32_t> tied_, next_tied_;  // of each body the least one with which it has left some
+    std::vector<Momenta> momenta_, rates_;         // of bodies when the step began, and how fast they changed
 };
 
 }  // namespace gelatin::cpu

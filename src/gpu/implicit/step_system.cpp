@@ -128,7 +128,7 @@ void StepSystem::solve(const NodeBuffers& at) const {
         rows_->begin.set("row_count", row_count_);
         rows_->begin.dispatch(row_count_);
         run(rows_->base, buffers_.chunk_count);
-        run_newton(contact_tuning::kNearBalance);
+        run_newton(contact_tuning::kBalance);
     }
     // Islands without rows go on in the second round.
     std::uint32_t turn = 0;
