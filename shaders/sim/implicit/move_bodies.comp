@@ -1,4 +1,4 @@
-// Bodies move as rigid ones, one invocation a node.
+// Bodies move as rigid ones, a work group a chunk of nodes.
 // CPU twin: gelatin::cpu::IslandSolve::rigid_newton. Parity: tests/gpu/implicit/step_system_test.cpp.
 #include "sim/implicit/solve_system.glsl"
 layout(local_size_x = 64) in;

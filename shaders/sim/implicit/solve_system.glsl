@@ -1,5 +1,5 @@
 // The system of a step as conjugate gradients see it: chunks of nodes, a work group of 64 each; bodies with rows in common are an
-// island, and each island is solved by itself. Tables: gpu::StepTables.
+// island, and each island is solved by itself. Tables: gpu::RowTables.
 #include "include/global_index.glsl"
 #include "layouts/packing.glsl"
 #include "layouts/step_rows.glsl"

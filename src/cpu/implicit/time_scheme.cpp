@@ -55,12 +55,20 @@ void TimeScheme<Real>::tie(std::span<const std::uint32_t> islands_of_bodies) {
 }
 
 template <class Real>
+typename TimeScheme<Real>::Scheme TimeScheme<Real>::of_momenta(std::size_t body) const {
+    const Scheme& s = schemes_[body];
+    return s.is_whole ? Scheme{.length = s.length, .step = s.length} : s;
+}
+
+template <class Real>
 void TimeScheme<Real>::archive(Archive& archive) {
     archive.value(last_step_);
     archive.list(accelerations_);
     archive.array(rates_);
     archive.array(tied_);
     if (has_past() && accelerations_.size() != model_->node_count()) archive.fail();
+    for (std::uint32_t o = 0; o < tied_.size(); ++o)
+        if (tied_[o] > o) return archive.fail();
 }
 
 template <class Real>
@@ -88,13 +96,12 @@ void TimeScheme<Real>::end(const Nodes<Real>& previous, const Nodes<Real>& curre
         accelerations_[n] = (change / s.length - before) / s.gamma;
     });
     for_each_index(0, momenta_.size(), 1, [&](std::size_t o) {
-        const Scheme& s = schemes_[o];
+        const Scheme s = of_momenta(o);
         const Momenta now = momenta(o, current.positions, current.velocities), before = rates_[o];
-        const double past = s.is_whole ? 0.0 : static_cast<double>(s.past * (Real(1) - s.gamma)),
-                     gamma = s.is_whole ? 1.0 : static_cast<double>(s.gamma);
         const auto rate = [&](glm::dvec3 Momenta::*part) {
-            return ((now.*part - momenta_[o].*part) / static_cast<double>(s.length) - past * (before.*part)) /
-                   gamma;
+            return ((now.*part - momenta_[o].*part) / static_cast<double>(s.length) -
+                    static_cast<double>(s.past * (Real(1) - s.gamma)) * (before.*part)) /
+                   static_cast<double>(s.gamma);
         };
         rates_[o] = {rate(&Momenta::linear), rate(&Momenta::angular)};
     });
@@ -179,10 +186,9 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
             sums.add(glm::dvec3(current.positions[n]) - origin, mass_of(n, current.positions[n]),
                      glm::dvec3(forces[n]));
         const RigidInertia inertia(sums);
-        const Scheme& s = schemes_[o];
-        const auto h = static_cast<double>(s.length), past = s.is_whole ? 0.0 : static_cast<double>(s.past),
-                   alpha = s.is_whole ? 0.0 : static_cast<double>(s.alpha),
-                   gamma = s.is_whole ? 1.0 : static_cast<double>(s.gamma);
+        const Scheme s = of_momenta(o);
+        const auto h = static_cast<double>(s.length), past = static_cast<double>(s.past),
+                   alpha = static_cast<double>(s.alpha), gamma = static_cast<double>(s.gamma);
         const Momenta forces_now{sums.force + glm::dvec3(model_->gravity) / inertia.inverse_mass,
                                  sums.moment - glm::cross(inertia.center, sums.force)};
         const Momenta &had = momenta_[o], &before = rates_[o];

@@ -28,7 +28,7 @@ public:
         Real past = 0;                        ///< what a_0 counts by: 1, or 0 with Euler's scheme
         Real alpha = 0, beta = 1, gamma = 1;  ///< as above
         Real damping = 0;                     ///< the least damping time [s]
-        bool is_whole = false;  ///< momenta change by what acts at the end alone, as with Euler's scheme
+        bool is_whole = false;                ///< momenta go by Euler's scheme, whatever nodes do
     };
 
     explicit TimeScheme(std::shared_ptr<const Model> model);
@@ -73,6 +73,8 @@ private:
     struct Momenta {
         glm::dvec3 linear{0.0}, angular{0.0};
     };
+    // By which a body's momenta go.
+    Scheme of_momenta(std::size_t body) const;
     double mass_of(std::size_t node, const Vec4<Real>& position) const;
     Momenta momenta(std::size_t body, std::span<const Vec4<Real>> positions,
                     std::span<const Vec4<Real>> velocities) const;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -122,6 +123,45 @@ TEST(TimeScheme, BringsAllOfAForce) {
     EXPECT_NEAR(nodes.velocities[0].y, 2.0, 1e-12);
     for (int s = 0; s < 30; ++s) advance(0.0, false);
     EXPECT_NEAR(nodes.velocities[0].y, 2.0 + 0.5 * 0.2, 0.02);
+}
+
+// Two blocks push each other, then part, and one of them goes on by Euler's scheme.
+TEST(TimeScheme, BodiesThatPartKeepTheirMomentum) {
+    const auto model = test::make_blocks({{}, {.place = {2, 0, 0}}});
+    cpu::TimeScheme<double> scheme(model);
+    cpu::RigidLevel<double> rigid(model);
+    cpu::Nodes<double> nodes;
+    nodes.positions.assign(model->positions.begin(), model->positions.end());
+    nodes.velocities.assign(nodes.positions.size(), glm::dvec4(0.0));
+    const std::uint32_t second = model->objects[1].nodes.first;
+    const double step = 0.01;
+    std::vector<double> inertia;
+    for (const glm::dvec4& x : nodes.positions) inertia.push_back(1.0 / (x.w * step * step));
+    // @return momentum of both in all [kg m/s]
+    const auto advance = [&](std::array<bool, 2> by_euler, std::array<std::uint32_t, 2> islands,
+                             double push) {
+        scheme.begin(nodes);
+        for (std::size_t o = 0; o < 2; ++o)
+            by_euler[o] ? scheme.set(o, step, 0.0) : scheme.set_second_order(o, step);
+        scheme.tie(islands);
+        std::vector<glm::dvec3> forces(nodes.positions.size(), glm::dvec3(0.0));
+        forces[second - 1].x = -push;
+        forces[second].x = push;
+        rigid.begin(nodes.positions, inertia);
+        cpu::Nodes<double> next = nodes;
+        scheme.keep_momenta(rigid, forces, next);
+        scheme.end(nodes, next);
+        nodes = next;
+        glm::dvec3 momentum(0.0);
+        for (std::size_t n = 0; n < nodes.positions.size(); ++n)
+            momentum += glm::dvec3(nodes.velocities[n]) / nodes.positions[n].w;
+        return glm::length(momentum);
+    };
+    const double push = 10.0, rounding = 1e-12 * push * step;
+    EXPECT_LT(advance({true, true}, {0, 0}, push), rounding);
+    EXPECT_LT(advance({false, false}, {0, 0}, 2.0 * push), rounding);
+    for (int k = 0; k < 4; ++k) EXPECT_LT(advance({false, k > 0}, {0, 1}, 0.0), rounding) << k;
+    EXPECT_GT(std::abs(nodes.velocities[second].x), 0.0);
 }
 
 }  // namespace
