@@ -314,6 +314,15 @@ SolveCase several_islands(double friction, int rows, bool is_held) {
     return at;
 }
 
+// A block that is held, on a plane. It has no rigid motion, so friction's limits stay what they were.
+SolveCase held_block() {
+    SolveCase at{make_blocks({{.pins = {HalfSpaceRegion{{0.0, -1.0, 0.0}, -0.2}}}}, {0, -10, 0}), 30, 1e-7f};
+    RowMaker maker(at.model);
+    maker.add(kNoNode, 0, 30, kUp, 0.4);
+    at.rows = maker.rows;
+    return at;
+}
+
 // Of six soft blocks on a plane, pushed far into each other.
 SolveCase stack(double friction) {
     std::vector<Block> blocks;
@@ -368,6 +377,7 @@ Scenarios step_system_scenarios() {
              std::erase_if(at.rows, [](const auto& row) { return row.object == kNoNode && row.other == 2; });
              return solve_error(at);
          }});
+    scenarios.push_back({"rows_of_a_held_body", [] { return solve_error(held_block()); }});
     scenarios.push_back({"rows_of_what_is_enough_at_once", [] {
                              SolveCase at = several_islands(0.4, 20, false);
                              at.enough = 1e9f;
