@@ -1,27 +1,23 @@
 #include "bench/kernel_cases.h"
 
-#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "bench/threads.h"
-#include "cpu/descent/implicit_solver.h"
 #include "cpu/explicit/explicit_solver.h"
 #include "cpu/implicit/step_system.h"
+#include "cpu/implicit/system_solver.h"
 #include "gl/program.h"
-#include "gpu/descent/implicit_solver.h"
 #include "gpu/explicit/explicit_solver.h"
+#include "gpu/implicit/implicit_solver.h"
 #include "gpu/implicit/step_system.h"
 #include "gpu/view/update_normals.h"
 #include "model/assembly/build_model.h"
-#include "model/descent/descent_rows.h"
 
 namespace gelatin {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // [s], the step of vertex block descent
-
-constexpr std::array kDescentCases{kFewSweeps, kManySweeps, kWholeStep};
+constexpr double kFrame = 1.0 / 60.0;  // [s], the implicit step
 
 constexpr int kSolveIterations = 10;
 constexpr const char* kLineariseStage = "linearise";
@@ -45,10 +41,6 @@ double merge_bytes(const Model& m) {
 double integrate_bytes(const Model& m) {
     return (2 * kNodeBytes + sizeof(glm::vec4)) * m.node_count();
 }
-// A sweep reads springs with their dampers, and positions and targets; the step computes the springs.
-double descent_bytes(const Model& m, int sweeps) {
-    return (sweeps + 1) * fused_bytes(m);
-}
 // A step's matrix, of edges that all have springs, and of tets.
 double matrix_bytes(const Model& m) {
     return static_cast<double>(m.springs.size()) * (sizeof(EdgeMatrix) + 2 * sizeof(glm::uvec2));
@@ -61,6 +53,10 @@ double linearise_bytes(const Model& m) {
 // An iteration reads the matrix, and reads and writes five fields.
 double solve_bytes(const Model& m) {
     return (kSolveIterations + 1) * (matrix_bytes(m) + 10 * sizeof(glm::vec4) * m.node_count());
+}
+// One part, as bodies make that touch nothing.
+double implicit_bytes(const Model& m) {
+    return linearise_bytes(m) + solve_bytes(m);
 }
 double normals_bytes(const Model& m) {
     return static_cast<double>(m.faces.size()) *
@@ -189,11 +185,7 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
     };
     const auto fused = solver_for(ForceMethod::fused);
     const auto divided = solver_for(ForceMethod::divide_and_merge);
-    std::vector<std::shared_ptr<cpu::ImplicitSolver<float>>> descents;
-    for (const DescentCase& descent : kDescentCases) {
-        descents.push_back(
-            std::make_shared<cpu::ImplicitSolver<float>>(model, CollisionSettings{}, descent.settings));
-    }
+    const auto implicit = std::make_shared<cpu::SystemSolver<float>>(model);
     const auto system = std::make_shared<CpuSystem>(model);
     const double divided_bytes = write_bytes(*model) + merge_bytes(*model) + integrate_bytes(*model);
     for (const int threads : measured_thread_counts()) {
@@ -203,11 +195,8 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
                          nothing, threads});
         cases.push_back({name, kDividedStage, divided_bytes, [divided, step] { divided->advance({step}); },
                          nothing, threads});
-        for (std::size_t k = 0; k < descents.size(); ++k) {
-            const DescentCase& descent = kDescentCases[k];
-            cases.push_back({name, descent.stage, descent_bytes(*model, descent.settings.iterations),
-                             [descent = descents[k]] { descent->advance({kFrame}); }, nothing, threads});
-        }
+        cases.push_back({name, kImplicitStage, implicit_bytes(*model),
+                         [implicit] { implicit->advance({kFrame}); }, nothing, threads});
         cases.push_back({name, kLineariseStage, linearise_bytes(*model), [system] { system->linearise(); },
                          nothing, threads});
         cases.push_back(
@@ -231,8 +220,6 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
     const auto kernels =
         std::make_shared<gpu::DivideAndMerge>(*model, explicit_scheme(SolverKind::semi_implicit_euler));
     const auto normals = std::make_shared<gpu::UpdateNormals>(model->faces, model->surface);
-    const DescentRows rows = make_descent_rows(m);
-    const auto empty = std::make_shared<gl::Program>(gl::Program::compute("bench/nothing.comp"));
     const auto finish = [] { gl::finish(); };
     cases.push_back(
         {kOpenGl, kFusedStage, fused_bytes(m), [fused, step] { fused->advance({step}); }, finish});
@@ -242,27 +229,13 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
                      [kernels] { kernels->merge_spring_forces(); }, finish});
     cases.push_back({kOpenGl, kDividedStage, write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
                      [divided, step] { divided->advance({step}); }, finish});
-    for (const DescentCase& descent : kDescentCases) {
-        const auto solver =
-            std::make_shared<gpu::ImplicitSolver>(model, CollisionSettings{}, descent.settings);
-        cases.push_back({kOpenGl, descent.stage, descent_bytes(m, descent.settings.iterations),
-                         [solver] { solver->advance({kFrame}); }, finish});
-    }
+    const auto implicit = std::make_shared<gpu::ImplicitSolver>(model);
+    cases.push_back(
+        {kOpenGl, kImplicitStage, implicit_bytes(m), [implicit] { implicit->advance({kFrame}); }, finish});
     const auto system = std::make_shared<GlSystem>(m);
     cases.push_back(
         {kOpenGl, kLineariseStage, linearise_bytes(m), [system] { system->linearise(); }, finish});
     cases.push_back({kOpenGl, kSolveStage, solve_bytes(m), [system] { system->solve(); }, finish});
-    // One for each colour, and half of the four that come with every second sweep.
-    const std::size_t dispatches = rows.batches.front().colors.size() + 2,
-                      invocations = rows.nodes.size() / rows.batches.front().colors.size();
-    cases.push_back({kOpenGl, kDispatchStage, 0.0,
-                     [empty, dispatches, invocations] {
-                         for (std::size_t k = 0; k < dispatches; ++k) {
-                             empty->dispatch(invocations);
-                             gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
-                         }
-                     },
-                     finish});
     cases.push_back({kOpenGl, "update_normals", normals_bytes(m),
                      [normals, fused] { normals->run(fused->nodes().position_texels); }, finish});
     cases.push_back({kOpenGl, "measure", fused_bytes(m),

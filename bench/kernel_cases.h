@@ -7,7 +7,6 @@
 
 #include "mesh/tet_mesh.h"
 #include "model/model.h"
-#include "model/solver.h"
 
 namespace gelatin {
 
@@ -27,17 +26,7 @@ inline constexpr const char* kOneThread = "CPU, 1 thread";
 inline constexpr const char* kOpenGl = "GL";
 inline constexpr const char* kFusedStage = "advance_nodes (fused)";
 inline constexpr const char* kDividedStage = "divide and merge";
-inline constexpr const char* kDispatchStage = "dispatches of a sweep";
-
-/// Steps of vertex block descent that are timed. Their differences give the cost of a sweep, with its share
-/// of what only some sweeps do, of a correction by the coarse level, and of the rest of a step.
-struct DescentCase {
-    const char* stage;
-    DescentSettings settings;
-};
-inline constexpr DescentCase kFewSweeps{"vbd (2 sweeps alone)", {2, false}};
-inline constexpr DescentCase kManySweeps{"vbd (26 sweeps alone)", {26, false}};
-inline constexpr DescentCase kWholeStep{"vbd (26 sweeps)", {26}};
+inline constexpr const char* kImplicitStage = "implicit step";
 
 /// Three times `scale` of this sphere in a grid, slightly damped so that both terms of the force count.
 std::shared_ptr<const Model> make_sphere_grid(const TetMesh& sphere, int scale);

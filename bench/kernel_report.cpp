@@ -9,7 +9,6 @@
 #include "bench/markdown_table.h"
 #include "core/file.h"
 #include "gelatin/version.h"
-#include "model/descent/descent_rows.h"
 
 namespace gelatin {
 namespace {
@@ -18,9 +17,8 @@ using Json = nlohmann::ordered_json;
 
 const char* const kKernelMethod = R"(
 Medians of samples; the stages are sampled alternately. Spread is (90th - 10th percentile) / median. 1x is three spheres of 4,581
-nodes, 22,638 springs and 8,000 faces each, damped, above a plane. MB is what a stage reads and writes at least once. The figures of
-block descent are differences of the shortest times of steps: a sweep with half the cost of what every second sweep adds (a check of
-all tets, a rigid motion of all bodies), a correction by the coarse level, which every sixth sweep adds, and the rest of a step.
+nodes, 22,638 springs and 8,000 faces each, damped, above a plane. MB is what a stage reads and writes at least once. An
+implicit step is a frame of 1/60 s.
 )";
 
 const KernelTime& find_time(const std::vector<KernelTime>& times, const std::string& backend,
@@ -28,31 +26,6 @@ const KernelTime& find_time(const std::vector<KernelTime>& times, const std::str
     return *std::find_if(times.begin(), times.end(), [&](const KernelTime& t) {
         return t.backend == backend && t.stage == stage && t.scale == scale;
     });
-}
-
-// The cost of a sweep of block descent in explicit steps, by differences of shortest times. Medians of times
-// that other programs have disturbed differ by more than a sweep.
-void add_sweep_ratios(const std::vector<KernelTime>& times, const std::string& backend, int scale,
-                      std::vector<BenchRatio>& ratios) {
-    const auto least = [&](const std::string& stage) {
-        return find_time(times, backend, stage, scale).least;
-    };
-    const double fused = least(kFusedStage);
-    const auto add = [&](const std::string& what, double ms, const std::string& wanted = "") {
-        ratios.push_back({fmt::format("{}: {} / fused, {}x", backend, what, scale), ms / fused, wanted});
-    };
-    const double few = least(kFewSweeps.stage), many = least(kManySweeps.stage);
-    const double sweep = (many - few) / (kManySweeps.settings.iterations - kFewSweeps.settings.iterations);
-    if (backend == kOpenGl) {
-        add("a sweep of vbd", sweep);
-        add("its dispatches", least(kDispatchStage));
-        add("a sweep less them", sweep - least(kDispatchStage), "<= 1.2");
-    } else {
-        add("a sweep of vbd", sweep, "<= 1.2");
-    }
-    add("a coarse correction",
-        (least(kWholeStep.stage) - many) / correction_count(kWholeStep.settings.iterations));
-    add("the rest of a step", few - kFewSweeps.settings.iterations * sweep);
 }
 
 }  // namespace
@@ -73,7 +46,8 @@ std::vector<BenchRatio> KernelBench::ratios() const {
         }
         for (const std::string& b : backends) {
             if (b == kPlainCore) continue;
-            add_sweep_ratios(times, b, scale, result);
+            result.push_back({fmt::format("{}: implicit step / fused, {}x", b, scale),
+                              ms(b, kImplicitStage) / ms(b, fused), ""});
         }
         if (options.use_gl) {
             result.push_back({fmt::format("GL / plain C++, fused, {}x", scale),

@@ -16,9 +16,8 @@ Steps are `advance_nodes` alone, timed by the host's clock until the device is d
 about 5 ms, at least one. A figure is the median of all samples. The spread is (90th - 10th percentile) / median.
 
 **Materials**: three balls of a radius of 0.5 m, 1e5 Pa, undamped unless damping is named, in free air, compressed to 0.95 along
-y. Nothing collides. `implicit` takes steps of 1/60 s with `iterations = 10`, `semi_implicit_euler` half its largest stable one. By OpenGL
-`implicit` is vertex block descent, here and below: `iterations` are its sweeps. On the CPU they are conjugate gradients at most, which
-end earlier where nothing is left to gain. The materials are measured in turn. A ratio is the median of the ratios of samples that were taken one after the other.
+y. Nothing collides. `implicit` takes steps of 1/60 s with `iterations = 10`, `semi_implicit_euler` half its largest stable one. Here and
+below `iterations` are conjugate gradients at most, which end earlier where nothing is left to gain. The materials are measured in turn. A ratio is the median of the ratios of samples that were taken one after the other.
 
 **SOFA's beam**: 10 x 10 x 40 nodes, 16 x 4 x 4 m, held at one end, under gravity of 9 m/s^2 across it, in steps of 0.01 s. The rates
 of SOFA are those that its authors published in SofaCUDA_benchmarks.csv (applications/plugins/SofaCUDA in its repository): implicit

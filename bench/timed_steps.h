@@ -13,7 +13,7 @@ namespace gelatin {
 struct StepSettings {
     SolverKind solver;
     double step;
-    DescentSettings descent = {};
+    ImplicitSettings descent = {};
 };
 
 std::unique_ptr<Solver> make_bench_solver(const std::shared_ptr<const Model>& model,

@@ -16,7 +16,7 @@ VARIANTS = {
     "springs, one step a frame": ["--set", "simulation.substeps=1"],
     "neo-Hookean tets": ["--set", "material.jelly.model=neo_hookean"],
 }
-NOTES = "vertex block descent, 10 sweeps a frame; `--backend cpu --threads 1`"
+NOTES = "implicit steps; `--backend cpu --threads 1`"
 
 
 class Peer:

@@ -19,8 +19,7 @@ namespace gelatin {
 enum class Axis { x, y, z };
 
 /// Four explicit schemes, and an implicit one, stable at any step, which solves a step as one linear system
-/// (docs/implicit-step.md); with OpenGL, where bodies do not meet, by vertex block descent
-/// (docs/block-descent.md). `vbd` is its earlier name.
+/// (docs/implicit-step.md). `vbd` is its earlier name.
 enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4, implicit, vbd = implicit };
 
 constexpr bool is_implicit(SolverKind solver) {
@@ -35,9 +34,7 @@ struct SimulationSettings {
     ForceMethod forces = ForceMethod::fused;
     double frame_rate = 60.0;     ///< frames a second of simulated time [1/s], > 0
     std::optional<int> substeps;  ///< steps a frame, >= 1; empty: the fewest that are stable
-    /// Of `implicit`, conjugate-gradient iterations for each linearisation at most; with OpenGL, sweeps in a
-    /// step. >= 1
-    int iterations = 10;
+    int iterations = 10;  ///< of `implicit`: conjugate gradients for each linearisation at most, >= 1
     std::optional<glm::dvec3> gravity;  ///< [m/s^2]; empty: 9.81 downwards (Scene::gravity)
     int frames = 600;                   ///< length of a run, >= 0
     /// Leave bodies out while they rest; for CollisionResponse::contact.

@@ -27,7 +27,7 @@ class SimulationSettings:
     frame_rate: float = 60.0
     #: steps a frame, >= 1; None or "auto": the fewest that are stable
     substeps: Union[int, Literal["auto"], None] = None
-    #: of "implicit", conjugate-gradient iterations for each linearisation at most; with OpenGL, sweeps; >= 1
+    #: of "implicit", conjugate-gradient iterations for each linearisation at most; >= 1
     iterations: int = 10
     #: [m/s^2]; None: 9.81 downwards
     gravity: Vector | None = None

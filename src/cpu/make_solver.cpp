@@ -10,7 +10,7 @@ namespace gelatin::cpu {
 template <class Real>
 std::unique_ptr<CpuSolver<Real>> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
                                              ForceMethod forces, const CollisionSettings& collision,
-                                             const DescentSettings& descent) {
+                                             const ImplicitSettings& descent) {
     if (solver == SolverKind::implicit)
         return std::make_unique<SystemSolver<Real>>(std::move(model), collision, descent);
     return std::make_unique<ExplicitSolver<Real>>(std::move(model), solver, forces, collision);
@@ -18,9 +18,9 @@ std::unique_ptr<CpuSolver<Real>> make_solver(std::shared_ptr<const Model> model,
 
 template std::unique_ptr<CpuSolver<float>> make_solver<float>(std::shared_ptr<const Model>, SolverKind,
                                                               ForceMethod, const CollisionSettings&,
-                                                              const DescentSettings&);
+                                                              const ImplicitSettings&);
 template std::unique_ptr<CpuSolver<double>> make_solver<double>(std::shared_ptr<const Model>, SolverKind,
                                                                 ForceMethod, const CollisionSettings&,
-                                                                const DescentSettings&);
+                                                                const ImplicitSettings&);
 
 }  // namespace gelatin::cpu

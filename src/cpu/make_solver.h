@@ -11,6 +11,6 @@ template <class Real>
 std::unique_ptr<CpuSolver<Real>> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
                                              ForceMethod forces = ForceMethod::fused,
                                              const CollisionSettings& collision = {},
-                                             const DescentSettings& descent = {});
+                                             const ImplicitSettings& descent = {});
 
 }  // namespace gelatin::cpu

@@ -2,14 +2,14 @@
 
 #include <utility>
 
-#include "gpu/descent/implicit_solver.h"
+#include "gpu/implicit/implicit_solver.h"
 #include "gpu/explicit/explicit_solver.h"
 
 namespace gelatin::gpu {
 
 std::unique_ptr<GpuSolver> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
                                        ForceMethod forces, const CollisionSettings& collision,
-                                       const DescentSettings& descent) {
+                                       const ImplicitSettings& descent) {
     if (solver == SolverKind::implicit)
         return std::make_unique<ImplicitSolver>(std::move(model), collision, descent);
     return std::make_unique<ExplicitSolver>(std::move(model), solver, forces, collision);

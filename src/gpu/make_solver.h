@@ -10,6 +10,6 @@ namespace gelatin::gpu {
 std::unique_ptr<GpuSolver> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
                                        ForceMethod forces = ForceMethod::fused,
                                        const CollisionSettings& collision = {},
-                                       const DescentSettings& descent = {});
+                                       const ImplicitSettings& descent = {});
 
 }  // namespace gelatin::gpu

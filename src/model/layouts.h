@@ -13,10 +13,8 @@ using glm::vec4;
 #include "layouts/alarm.glsl"
 #include "layouts/box.glsl"
 #include "layouts/chunk.glsl"
-#include "layouts/cluster.glsl"
 #include "layouts/collider.glsl"
 #include "layouts/contact.glsl"
-#include "layouts/descent.glsl"
 #include "layouts/dispatch.glsl"
 #include "layouts/draw.glsl"
 #include "layouts/element_edge.glsl"
@@ -33,6 +31,7 @@ using glm::vec4;
 #include "layouts/step_rows.glsl"
 #include "layouts/step_system.glsl"
 #include "layouts/surface_vertex.glsl"
+#include "layouts/tet_corner.glsl"
 #include "layouts/tet_strip.glsl"
 #include "layouts/tree_node.glsl"
 
@@ -44,13 +43,9 @@ static_assert(sizeof(BodyInverse) == 144);
 static_assert(sizeof(BodyMotion) == 32);
 static_assert(sizeof(Box) == 32);
 static_assert(sizeof(Chunk) == 16);
-static_assert(sizeof(Cluster) == 96);
-static_assert(sizeof(ClusterRest) == 32);
-static_assert(sizeof(CoarseBody) == 16);
 static_assert(sizeof(Collider) == 64);
 static_assert(sizeof(ContactPatch) == 48);
 static_assert(sizeof(ContactResponse) == 48);
-static_assert(sizeof(DescentRow) == 16);
 static_assert(sizeof(Dispatch) == 16);
 static_assert(sizeof(Draw) == 16);
 static_assert(sizeof(EdgeMatrix) == 48);
@@ -76,10 +71,8 @@ static_assert(sizeof(ProximityCounts) == 16);
 static_assert(sizeof(ResidualSums) == 32);
 static_assert(sizeof(RestMoment) == 48);
 static_assert(sizeof(RestShape) == 48);
-static_assert(sizeof(RigidMotion) == 80);
 static_assert(sizeof(ShapePlace) == 96);
 static_assert(sizeof(ShapeSums) == 80);
-static_assert(sizeof(ColliderContact) == 32);
 static_assert(sizeof(SkinPoint) == 32);
 static_assert(sizeof(SolveState) == 32);
 static_assert(sizeof(Spring) == 16);
@@ -105,14 +98,9 @@ using layouts::BodyMotion;
 using layouts::BoundingBox;
 using layouts::Box;
 using layouts::Chunk;
-using layouts::Cluster;
-using layouts::ClusterRest;
-using layouts::CoarseBody;
 using layouts::Collider;
-using layouts::ColliderContact;
 using layouts::ContactPatch;
 using layouts::ContactResponse;
-using layouts::DescentRow;
 using layouts::Dispatch;
 using layouts::Draw;
 using layouts::EdgeMatrix;
@@ -138,7 +126,6 @@ using layouts::ProximityCounts;
 using layouts::ResidualSums;
 using layouts::RestMoment;
 using layouts::RestShape;
-using layouts::RigidMotion;
 using layouts::ShapePlace;
 using layouts::ShapeSums;
 using layouts::SkinPoint;

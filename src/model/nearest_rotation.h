@@ -40,7 +40,7 @@ inline int longest_column(const glm::dmat4& projection) {
 }
 
 /// The rotation R for which tr(R^T moment) is largest, a proper one for any moment. GLSL twin:
-/// shaders/sim/descent/nearest_rotation.glsl.
+/// shaders/sim/recovery/nearest_rotation.glsl.
 /// @param moment as above
 inline glm::dmat3 nearest_rotation(const glm::dmat3& moment) {
     const glm::dmat4 m = project_on_nearest_rotations(moment);

@@ -33,9 +33,4 @@ namespace thresholds {
 #include "layouts/thresholds.glsl"
 }  // namespace thresholds
 
-/// How sums over the nodes of a body as a rigid one are divided.
-namespace rigid_sums {
-#include "layouts/rigid_sums.glsl"
-}  // namespace rigid_sums
-
 }  // namespace gelatin

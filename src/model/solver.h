@@ -25,15 +25,11 @@ struct State {
     std::string memory{};
 };
 
-/// Of SolverKind::implicit: of the implicit step, and of block descent where a device makes the steps.
-struct DescentSettings {
-    /// Of conjugate gradients for each linear system, at most, or of sweeps over all nodes in a step; >= 1.
-    int iterations = 10;
-    bool coarse_level = true;  ///< of block descent: model/descent/coarse_basis.h; off to compare
-    /// Of the implicit step: whether it is divided into parts, more where bodies are near each other.
-    bool divides_steps = false;
-    /// Of the implicit step: whether bodies are left out while they rest; with contacts alone.
-    bool sleeps = false;
+/// Of SolverKind::implicit.
+struct ImplicitSettings {
+    int iterations = 10;         ///< of conjugate gradients for each linear system, at most; >= 1
+    bool divides_steps = false;  ///< into parts, more where bodies are near each other
+    bool sleeps = false;         ///< whether bodies are left out while they rest; with contacts alone
 };
 
 /// Whether implicit steps have contacts between bodies, with colliders, or of bodies with themselves.

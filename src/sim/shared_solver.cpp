@@ -14,7 +14,7 @@ CollisionSettings of_host(CollisionSettings collision) {
 }  // namespace
 
 SharedSolver::SharedSolver(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
-                           const DescentSettings& descent)
+                           const ImplicitSettings& descent)
     : GpuSolver(model, collision), host_(model, of_host(collision), descent) {}
 
 void SharedSolver::advance_nodes(const Step& step) {

@@ -16,7 +16,7 @@ namespace gelatin {
 class SharedSolver : public gpu::GpuSolver {
 public:
     SharedSolver(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
-                 const DescentSettings& descent);
+                 const ImplicitSettings& descent);
 
     void set_pulls(std::vector<Pull> pulls) override { host_.set_pulls(std::move(pulls)); }
     void move_pull(std::size_t pull, const glm::dvec3& target) override { host_.move_pull(pull, target); }

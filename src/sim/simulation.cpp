@@ -50,7 +50,7 @@ void Simulation::begin() {
 
 BackendSolver Simulation::make_solver(const Scene& of, const std::shared_ptr<const Model>& from) const {
     const SimulationSettings& settings = of.simulation;
-    DescentSettings descent{settings.iterations};
+    ImplicitSettings descent{settings.iterations};
     descent.divides_steps = of.has_contact() && !settings.substeps;
     descent.sleeps = of.has_contact() && settings.sleep;
     const auto timed = [&](auto made) {

@@ -177,7 +177,7 @@ TEST_F(BenchCommand, KernelsStillRuns) {
     const json kernels = read_json("k.json");
     EXPECT_EQ(kernels["benchmark"], "kernels");
     for (const json& stage : kernels["stages"]) EXPECT_GT(stage["ms"].get<double>(), 0.0);
-    EXPECT_THAT(result.out, HasSubstr("CPU, 1 thread: a sweep of vbd / fused, 1x"));
+    EXPECT_THAT(result.out, HasSubstr("CPU, 1 thread: implicit step / fused, 1x"));
     EXPECT_THAT(read_file(path("k.md")), HasSubstr(result.out));
 }
 

@@ -53,17 +53,6 @@ TEST_F(LayoutsTest, Spring) {
     check("spring.glsl", "Spring", sizeof(Spring),
           {FIELD(Spring, i), FIELD(Spring, j), FIELD(Spring, rest_length), FIELD(Spring, stiffness)});
 }
-TEST_F(LayoutsTest, Clusters) {
-    check("cluster.glsl", "Cluster", sizeof(Cluster),
-          {FIELD(Cluster, middle), FIELD(Cluster, orientation_x), FIELD(Cluster, orientation_y),
-           FIELD(Cluster, orientation_z), FIELD(Cluster, translation), FIELD(Cluster, rotation)});
-    check("cluster.glsl", "ClusterRest", sizeof(ClusterRest),
-          {FIELD(ClusterRest, middle), FIELD(ClusterRest, object), FIELD(ClusterRest, core_first),
-           FIELD(ClusterRest, core_end), FIELD(ClusterRest, row)});
-    check("cluster.glsl", "CoarseBody", sizeof(CoarseBody),
-          {FIELD(CoarseBody, first), FIELD(CoarseBody, count), FIELD(CoarseBody, matrix),
-           FIELD(CoarseBody, body_length)});
-}
 TEST_F(LayoutsTest, ShapeMatching) {
     check("shape_match.glsl", "RestMoment", sizeof(RestMoment),
           {FIELD(RestMoment, inverse_x), FIELD(RestMoment, inverse_y), FIELD(RestMoment, inverse_z)});
@@ -252,16 +241,8 @@ TEST_F(LayoutsTest, Dispatch) {
 TEST_F(LayoutsTest, NodeContacts) {}
 
 TEST_F(LayoutsTest, Descent) {
-    check("descent.glsl", "DescentRow", sizeof(DescentRow),
-          {FIELD(DescentRow, node), FIELD(DescentRow, object), FIELD(DescentRow, pairs),
-           FIELD(DescentRow, place)});
-    check("descent.glsl", "TetCorner", sizeof(TetCorner),
+    check("tet_corner.glsl", "TetCorner", sizeof(TetCorner),
           {FIELD(TetCorner, a), FIELD(TetCorner, b), FIELD(TetCorner, c), FIELD(TetCorner, tet)});
-    check("descent.glsl", "ColliderContact", sizeof(ColliderContact),
-          {FIELD(ColliderContact, force), FIELD(ColliderContact, normal)});
-    check("descent.glsl", "RigidMotion", sizeof(RigidMotion),
-          {FIELD(RigidMotion, center), FIELD(RigidMotion, translation), FIELD(RigidMotion, rotation_x),
-           FIELD(RigidMotion, rotation_y), FIELD(RigidMotion, rotation_z)});
 }
 
 }  // namespace

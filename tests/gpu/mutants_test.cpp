@@ -40,16 +40,13 @@ INSTANTIATE_TEST_SUITE_P(StepRows, MutantsLong,
 
 INSTANTIATE_MUTANTS(Steps, kStepMutants, step_scenarios());
 INSTANTIATE_MUTANTS(Drive, kDriveMutants,
-                    joined({kinematics_scenarios(), load_scenarios(), driven_descent_scenarios(),
-                            step_scenarios()}));
+                    joined({kinematics_scenarios(), load_scenarios(), step_scenarios()}));
 INSTANTIATE_MUTANTS(Pulls, kPullMutants, pull_scenarios());
 INSTANTIATE_MUTANTS(ElasticSystem, kElasticSystemMutants, elastic_system_scenarios());
 INSTANTIATE_MUTANTS(StepSystem, kStepSystemMutants, step_system_scenarios());
-INSTANTIATE_MUTANTS(Descent, kDescentMutants, descent_scenarios());
 INSTANTIATE_MUTANTS(Matching, kMatchingMutants, matching_scenarios());
 INSTANTIATE_MUTANTS(NeoHookean, kNeoHookeanMutants,
-                    joined({neo_hookean_energy_scenarios(), neo_hookean_step_scenarios(),
-                            neo_hookean_descent_scenarios()}));
+                    joined({neo_hookean_energy_scenarios(), neo_hookean_step_scenarios()}));
 INSTANTIATE_MUTANTS(VolumeTerm, kVolumeTermMutants,
                     joined({volume_energy_scenarios(), volume_step_scenarios()}));
 INSTANTIATE_MUTANTS(Watch, kWatchMutants, watch_scenarios());

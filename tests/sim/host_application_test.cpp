@@ -482,7 +482,7 @@ protected:
     }
 };
 
-TEST_F(HostApplicationTest, DoesNotNoticeBlockDescent) {
+TEST_F(HostApplicationTest, DoesNotNoticeImplicitSteps) {
     expect_that_neither_notices(scene_of(SolverKind::implicit, BroadPhase::hierarchy), Backend::gl);
 }
 

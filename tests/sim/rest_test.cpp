@@ -1,4 +1,4 @@
-// What a scene does wakes its bodies when they sleep (cpu/descent/rest_watch.h).
+// What a scene does wakes its bodies when they sleep (cpu/implicit/rest_watch.h).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -24,7 +24,7 @@ SharedSolver make_solver(const std::shared_ptr<const Model>& model, int iteratio
     collision.self_collision = true;
     collision.friction = 0.4;
     collision.restitution = 0.0;
-    DescentSettings descent;
+    ImplicitSettings descent;
     descent.iterations = iterations;
     descent.divides_steps = divides_steps;
     return {model, collision, descent};

@@ -45,7 +45,7 @@ cpu::SystemSolver<Real> make_solver(const std::shared_ptr<const Model>& model, d
                                                      .self_collision = true,
                                                      .friction = friction,
                                                      .restitution = 0.0},
-                                   DescentSettings{.iterations = iterations, .divides_steps = divides_steps});
+                                   ImplicitSettings{.iterations = iterations, .divides_steps = divides_steps});
 }
 
 /// Makes a step of `step` [s], with what handles and colliders do then. @param number of the step, from 0

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "cpu/descent/match_shapes.h"
-#include "gpu/descent/match_shapes.h"
+#include "cpu/recovery/match_shapes.h"
+#include "gpu/recovery/match_shapes.h"
 #include "support/test_models.h"
 
 namespace gelatin::test {

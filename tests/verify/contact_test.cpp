@@ -1,11 +1,9 @@
-// A node against a plane: restitution, sliding, and the slope on which it starts to slide.
+// A node against a plane, by explicit steps: restitution, sliding, and the slope on which it starts to slide.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "cpu/descent/implicit_solver.h"
 #include "cpu/explicit/explicit_solver.h"
-#include "gpu/descent/implicit_solver.h"
 #include "gpu/explicit/explicit_solver.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
@@ -43,8 +41,6 @@ std::vector<std::unique_ptr<Solver>> solvers_for(const Model& model, bool with_g
                 std::make_unique<gpu::ExplicitSolver>(shared, SolverKind::semi_implicit_euler, forces));
         }
     }
-    solvers.push_back(std::make_unique<cpu::ImplicitSolver<float>>(shared));
-    if (with_gl) solvers.push_back(std::make_unique<gpu::ImplicitSolver>(shared));
     return solvers;
 }
 

@@ -32,7 +32,7 @@ struct Fuzzed {
     std::shared_ptr<const Model> model;
     State start;
     double step;
-    DescentSettings settings;
+    ImplicitSettings settings;
 };
 
 Fuzzed make_scene(unsigned seed) {

@@ -80,7 +80,8 @@ public:
         scene.colliders = {floor};
         model_ = std::make_shared<const Model>(
             pack_bodies({ball}, solid_colliders(scene), {0, 0, 0}, make_collider_surfaces(scene)));
-        solver_.emplace(model_, CollisionSettings{.response = CollisionResponse::contact}, DescentSettings{});
+        solver_.emplace(model_, CollisionSettings{.response = CollisionResponse::contact},
+                        ImplicitSettings{});
     }
 
     // At the next depth, at rest. Depths count from where the nodes that are pressed are: a surface keeps the

@@ -47,7 +47,7 @@ class HeldRun {
 public:
     HeldRun(const Body& body, const glm::dvec3& gravity, int iterations = 10)
         : model_(std::make_shared<const Model>(test::make_model(body, gravity))),
-          solver_(model_, {}, DescentSettings{.iterations = iterations}) {}
+          solver_(model_, {}, ImplicitSettings{.iterations = iterations}) {}
 
     void advance(int steps) {
         for (; steps > 0; --steps, ++steps_) {

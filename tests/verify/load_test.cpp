@@ -67,7 +67,7 @@ TEST_F(LoadOnGpuTest, AForceAcceleratesAFreeBody) {
 }
 
 // Held at one end and pulled at the other by F, a bar gets longer by F L / (E A): here by 2%, where it comes
-// to rest by block descent, by F and by the stress F / A alike.
+// to rest by implicit steps, by F and by the stress F / A alike.
 TEST(LoadHeavy, ABarGetsLongerByHookesLaw) {
     constexpr double kLength = 0.4, kSide = 0.1, kModulus = 1e5, kStrain = 0.02;
     const double stress = kStrain * kModulus, force = stress * kSide * kSide;

@@ -108,7 +108,7 @@ void expect_fall(const MakeSolver& make_solver) {
         for (int s = 0; s < steps; ++s) solver->advance({step});
         const glm::dvec3 expected = step * steps * glm::dvec3(acceleration);
         const glm::dvec3 velocity = center_of(*model, solver->read_state()).velocity;
-        // Block descent's velocities are differences of coordinates of half a metre in single precision.
+        // Velocities of implicit steps are differences of coordinates of half a metre in single precision.
         // The implicit step, which begins by Euler's scheme, has 0.43 of its last step's change still to
         // come.
         const double rounding = 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) / step;

@@ -9,7 +9,7 @@
 
 #include "cpu/implicit/system_solver.h"
 #include "gelatin/simulator.h"
-#include "gpu/descent/implicit_solver.h"
+#include "gpu/implicit/implicit_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "model/assembly/start_state.h"
@@ -68,10 +68,10 @@ struct Run {
 };
 
 std::unique_ptr<Solver> make_solver(const std::shared_ptr<const Model>& model, Backend backend) {
-    constexpr DescentSettings kDescent{20};
+    constexpr ImplicitSettings kSettings{20};
     if (backend == Backend::gl)
-        return std::make_unique<gpu::ImplicitSolver>(model, CollisionSettings{}, kDescent);
-    return std::make_unique<cpu::SystemSolver<float>>(model, CollisionSettings{}, kDescent);
+        return std::make_unique<gpu::ImplicitSolver>(model, CollisionSettings{}, kSettings);
+    return std::make_unique<cpu::SystemSolver<float>>(model, CollisionSettings{}, kSettings);
 }
 
 double strain_after(const Run& run, const Body& body, const StartDescription& start) {

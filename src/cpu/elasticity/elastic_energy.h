@@ -16,7 +16,7 @@ struct ElasticParts {
 template <class Real>
 double elastic_energy(const Model& model, const ElasticParts& parts, std::span<const Vec4<Real>> positions);
 
-/// What flat tets of springs hold, which only steps of vertex block descent count [J].
+/// What flat tets of springs hold, which only implicit steps count [J].
 template <class Real>
 double flat_tet_energy(const Model& model, const Range& tets, std::span<const Vec4<Real>> positions);
 

@@ -18,7 +18,6 @@ using thresholds::kFlattest, thresholds::kCollapsed;
 #include "cpu/elasticity/elements.inl"
 
 using TermLanes = NodeTerms<FloatLanes>;
-using ForceLanes = NodeTerms<FloatLanes, NoHessian<FloatLanes>>;
 
 }  // namespace gelatin::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -72,25 +72,6 @@ Vec3<Real> neo_hookean_force(const TetAtCorner<Real>& tet, const TetModuli<Real>
     return -stress.shear * tet.stretched - stress.pressure * tet.slope;
 }
 
-/// The elastic energy as a function of one corner, with s = cof F g the gradient of J:
-///   force   as above
-///   hessian V (mu I / (I + 1) |g|^2 + 2 mu / (I + 1)^2 (F g) (F g)^T + lambda s s^T),
-/// which is exact, because J is linear in one corner, and positive semi-definite for any F.
-/// @param moduli times V @param bound of the tet's part of the volume term, which is added as in
-/// add_tet_volume
-template <class Real, class Hessian>
-void add_neo_hookean(const TetAtCorner<Real>& tet, const TetModuli<Real>& moduli,
-                     const VolumeBound<Real>& bound, NodeTerms<Real, Hessian>& terms) {
-    const Real inverse = Real(1) / (tet.squares + Real(1));
-    const NeoHookeanStress<Real> stress = neo_hookean_stress(tet.squares, inverse, tet.ratio, moduli);
-    const Real pressure = stress.pressure + multiply_add(bound.modulus, tet.ratio, bound.offset);
-    terms.force = multiply_add(-stress.shear, tet.stretched, terms.force);
-    terms.force = multiply_add(-pressure, tet.slope, terms.force);
-    terms.hessian.add_identity(stress.shear * tet.gradient_squared);
-    terms.hessian.add_outer(Real(2) * moduli.mu * inverse * inverse, tet.stretched);
-    terms.hessian.add_outer(moduli.lambda + bound.modulus, tet.slope);
-}
-
 /// The force on the corner that opens a collapsed tet: V mu g. @param stiffness V mu [J]
 template <class Real>
 Vec3<Real> opening_force(const Vec3<Real>& g, Real squares, Real stiffness) {
@@ -129,22 +110,4 @@ Vec3<Real> viscous_force(const Vec3<Real>& g, const Mat3<Real>& f, const Mat3<Re
                          const TetModuli<Real>& moduli, Real damping_time) {
     const Real scale = -damping_time * viscous_share(double_dot(f, f));
     return scale * (f * viscous_traction<Real>(g, f, rate, moduli));
-}
-
-/// The viscosity over a step of h seconds that changes the gradient from `start` to `f`: the dissipation
-///   V t a / (2 h) dE : C : dE,   dE = (F^T F - start^T start) / 2,
-/// with C the stiffness of the viscous stress, and a that at the start. The part of the Hessian that is
-/// negative where the tet gets shorter is omitted. @param moduli times V @param damping t / h
-template <class Real, class Hessian>
-void add_viscosity(const Vec3<Real>& g, const Mat3<Real>& f, const Mat3<Real>& start,
-                   const TetModuli<Real>& moduli, Real damping, NodeTerms<Real, Hessian>& terms) {
-    const Real scale = damping * viscous_share(double_dot(start, start));
-    const Mat3<Real> middle = Real(0.5f) * (f + start), change = f - start;
-    const Vec3<Real> traction = viscous_traction<Real>(g, middle, change, moduli);
-    terms.force -= scale * (f * traction);
-    const Real shear = Real(0.75f) * moduli.mu;
-    const Real resistance = scale * shear * dot(g, g);
-    for (int k = 0; k < 3; ++k) terms.hessian.add_outer(resistance, f[k]);
-    terms.hessian.add_outer(scale * multiply_add(Real(0.125f), moduli.mu, moduli.lambda), f * g);
-    terms.hessian.add_identity(scale * larger(dot(g, traction), Real(0)));
 }

@@ -26,26 +26,14 @@ Vec3<Real> operator*(const SymmetricMatrix<Real>& m, const Vec3<Real>& v) {
                                        m.beside.y * v.x + m.beside.x * v.y);
 }
 
-/// In its place where forces are enough.
+/// What elements add to a node: a force [N], and how it falls as the node moves, positive semi-definite [N/m].
+/// GLSL twin: shaders/sim/elasticity/node_terms.glsl.
 template <class Real>
-struct NoHessian {
-    NoHessian() {}
-
-    void add_identity(Real) {}
-    void add_outer(Real, const Vec3<Real>&) {}
-};
-
-/// The contribution of elements to a node's part of the objective of a step: minus its gradient, which is a
-/// force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
-/// shaders/sim/elasticity/node_terms.glsl.
-template <class Real, class Hessian = SymmetricMatrix<Real>>
 struct NodeTerms {
     Vec3<Real> force;
-    Hessian hessian;
+    SymmetricMatrix<Real> hessian;
 
     NodeTerms() : force(Real(0)) {}
-    NodeTerms(const Vec3<Real>& own_force, const Hessian& own_hessian)
-        : force(own_force), hessian(own_hessian) {}
 };
 
 /// 1 / pivot. Pivots that are smaller than the rounding error of their operands count as no stiffness, and
@@ -94,10 +82,4 @@ SymmetricMatrix<Real> inverse_of(const SymmetricMatrix<Real>& matrix) {
     return {Vec3<Real>(multiply_add(corner, scaled, multiply_add(f.l10 * f.l10, f.i1, f.i0)),
                        multiply_add(f.l21, beside, f.i1), f.i2),
             Vec3<Real>(-beside, scaled, -multiply_add(corner, beside, f.l10 * f.i1))};
-}
-
-/// A node's Newton step [m].
-template <class Real>
-Vec3<Real> solve(const NodeTerms<Real>& terms) {
-    return solve(terms.hessian, terms.force);
 }

@@ -7,19 +7,6 @@ struct PointSpring {
     Real stiffness;    ///< k [N/m]
 };
 
-/// k / 2 |d|^2 [J]. @param apart the vector d from the node to p
-template <class Real>
-Real point_spring_energy(const Vec3<Real>& apart, Real stiffness) {
-    return Real(0.5f) * stiffness * dot(apart, apart);
-}
-
-///   force   k d,   hessian k.
-template <class Real, class Hessian>
-void add_point_spring(const Vec3<Real>& apart, Real stiffness, NodeTerms<Real, Hessian>& terms) {
-    terms.force = multiply_add(stiffness, apart, terms.force);
-    terms.hessian.add_identity(stiffness);
-}
-
 /// Over a step of h seconds, the damper k t / (2 h) |x - x_0|^2, with x_0 where the node was when the step
 /// began, makes of a point spring another one: of stiffness K = k (1 + t / h), to P = (p + t / h x_0) / (1 +
 /// t / h).

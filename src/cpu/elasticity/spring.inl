@@ -1,5 +1,4 @@
-// Springs and their dampers; see elements.inl. GLSL twins: shaders/sim/elasticity/spring_force.glsl,
-// node_terms.glsl.
+// Springs and their dampers; see elements.inl. GLSL twin: shaders/sim/elasticity/spring_force.glsl.
 
 /// Squares of lengths count as no less [m^2]: a spring of no length has no direction and no force.
 constexpr float kLeastSquare = 1e-30f;
@@ -45,18 +44,4 @@ template <class Real>
 SpringLaw<Real> damped_spring(const SpringLaw<Real>& spring, Real start_length, Real damping) {
     return {multiply_add(damping, start_length, spring.rest_length) / (Real(1) + damping),
             multiply_add(spring.stiffness, damping, spring.stiffness)};
-}
-
-/// A spring to a node at the offset `apart` from this one, d. With s = k (1 - L / l):
-///   force   s d
-///   hessian max(0, s) + (k - max(0, s)) d d^T / l^2.
-/// The part of the energy's own Hessian that is negative where the spring is shorter than L is omitted.
-template <class Real, class Hessian>
-void add_spring(const Vec3<Real>& apart, const SpringLaw<Real>& spring, NodeTerms<Real, Hessian>& terms) {
-    const Real inverse = inverse_length<Real>(apart);
-    const Real pull = multiply_add(-(spring.stiffness * spring.rest_length), inverse, spring.stiffness);
-    terms.force = multiply_add(pull, apart, terms.force);
-    const Real across = larger(pull, Real(0));
-    terms.hessian.add_identity(across);
-    terms.hessian.add_outer(spring.stiffness - across, inverse * apart);
 }

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "model/elasticity/tet_strips.h"
-#include "model/shared_constants.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -12,13 +11,8 @@ static_assert(TetBlocks::kEmptyBlocks == TetStrips::kFirstVertices);
 
 class Builder {
 public:
-    Builder(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets,
-            VolumesOf volumes)
-        : nodes_(nodes),
-          volumes_of_(volumes),
-          strips_(model, node_tets),
-          tet_count_(static_cast<std::uint32_t>(model.tets.size())),
-          has_volume_term_(!model.volume_term.is_empty()) {
+    Builder(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets)
+        : nodes_(nodes), strips_(model, node_tets) {
         blocks_.is_damped = model.has_damping();
     }
 
@@ -43,13 +37,11 @@ private:
     }
 
     void append(std::uint32_t node, std::uint32_t row) {
-        const std::vector<NeoHookeanStep> steps = strips_.neo_hookean(node);
         std::size_t index = blocks_.neo_hookean_starts.back();
-        for (const NeoHookeanStep& step : steps) {
+        for (const NeoHookeanStep& step : strips_.neo_hookean(node)) {
             if (index == blocks_.neo_hookean.size()) append_neo_hookean_block();
             set(step, index++, row);
         }
-        if (volumes_of_ == VolumesOf::springs && !steps.empty()) return;
         index = blocks_.volume_starts.back();
         for (const VolumeStep& step : strips_.volumes(node)) {
             if (index == blocks_.volumes.size()) append_volume_block();
@@ -59,15 +51,12 @@ private:
 
     void append_neo_hookean_block() {
         blocks_.neo_hookean.emplace_back().nodes = shown_;
-        blocks_.neo_hookean_tets.emplace_back().fill(tet_count_);
         blocks_.openings.emplace_back();
-        if (has_volume_term_) blocks_.neo_hookean_moduli.emplace_back();
     }
 
     void append_volume_block() {
         blocks_.volumes.emplace_back().nodes = shown_;
         blocks_.inverse_six_volumes.emplace_back();
-        blocks_.volume_tets.emplace_back().fill(tet_count_);
     }
 
     void set(const NeoHookeanStep& step, std::size_t index, std::uint32_t row) {
@@ -81,9 +70,7 @@ private:
         block.cc[row] = step.cc;
         block.mu[row] = with_sign(step.mu, step.vertex);
         block.lambda[row] = step.lambda;
-        blocks_.neo_hookean_tets[index][row] = index_of(step.tet);
         blocks_.openings[index][row] = glm::vec3(step.opening);
-        if (has_volume_term_) blocks_.neo_hookean_moduli[index].values[row] = step.modulus;
     }
 
     void set(const VolumeStep& step, std::size_t index, std::uint32_t row) {
@@ -92,33 +79,24 @@ private:
         const float inverse = step.inverse_six_volumes;
         block.modulus[row] = with_sign(inverse * inverse * step.modulus, step.vertex);
         blocks_.inverse_six_volumes[index].values[row] = inverse;
-        blocks_.volume_tets[index][row] = index_of(step.tet);
     }
 
     static float with_sign(float value, std::uint32_t vertex) {
         return (vertex & TetStrips::kKeepsOldest) != 0 ? -value : value;
     }
 
-    std::uint32_t index_of(std::uint32_t tet) const { return tet == packing::kNone ? tet_count_ : tet; }
-
     std::span<const std::uint32_t> nodes_;
-    VolumesOf volumes_of_;
     TetStrips strips_;
-    std::uint32_t tet_count_;
-    bool has_volume_term_;
     std::array<std::uint32_t, kGroup> shown_{};
     TetBlocks blocks_;
 };
 
 }  // namespace
 
-TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets,
-                          VolumesOf volumes) {
+TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes,
+                          const NodeTets& node_tets) {
     if (model.neo_hookean_tets.empty() && model.volume_term.is_empty()) return {};
-    return Builder(model, nodes, node_tets, volumes).build();
+    return Builder(model, nodes, node_tets).build();
 }
-
-TetOffsets::TetOffsets(const TetBlocks& blocks)
-    : neo_hookean(blocks.neo_hookean_moduli.size()), volumes(blocks.volumes.size()) {}
 
 }  // namespace gelatin::cpu

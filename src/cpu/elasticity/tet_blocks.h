@@ -24,7 +24,7 @@ struct alignas(32) NeoHookeanBlock {  // 288 bytes
 /// A VolumeStep of each.
 struct alignas(32) VolumeBlock {              // 64 bytes
     std::array<std::uint32_t, kGroup> nodes;  ///< as above
-    /// VolumeBound's by 6 V J in place of J [J/m^6]; the sign bit is set where the oldest vertex stays
+    /// V k by 6 V J in place of J [J/m^6]; the sign bit is set where the oldest vertex stays
     std::array<float, kGroup> modulus;
 };
 
@@ -33,22 +33,16 @@ struct alignas(32) BlockColumn {
     std::array<float, kGroup> values;
 };
 
-/// The tets of a block, in Model::tets; the number of all where there is none.
-using BlockTets = std::array<std::uint32_t, kGroup>;
-
 /// The tets of rows of nodes as SIMD reads them: a group's blocks one after another, and group after group.
 struct TetBlocks {
     /// Of a group's blocks, the first ones complete no tet.
     static constexpr std::uint32_t kEmptyBlocks = 2;
 
     std::vector<NeoHookeanBlock> neo_hookean;
-    std::vector<BlockTets> neo_hookean_tets;
-    std::vector<BlockColumn> neo_hookean_moduli;          ///< VolumeBound's [J]; none without a volume term
     std::vector<std::array<glm::vec3, kGroup>> openings;  ///< mu V g, read where a tet is collapsed [N]
     std::vector<VolumeBlock> volumes;                     ///< none without a volume term
     /// Of their steps, 1 / (6 V) [1/m^3]; negative where vertices come clockwise.
     std::vector<BlockColumn> inverse_six_volumes;
-    std::vector<BlockTets> volume_tets;
     std::vector<std::uint32_t> neo_hookean_starts;  ///< of each group, and the end, shape [groups + 1]
     std::vector<std::uint32_t> volume_starts;
     bool is_damped = false;  ///< whether any of the model's nodes are
@@ -56,21 +50,8 @@ struct TetBlocks {
     bool is_empty() const { return neo_hookean.empty() && volumes.empty(); }
 };
 
-/// Block descent adds the volume term of neo-Hookean tets with their other terms; explicit passes have
-/// volumes of all nodes.
-enum class VolumesOf { springs, all };
-
 /// @param nodes of the rows, or kNoNode, whole groups @param node_tets those of the model's tets
-TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets,
-                          VolumesOf volumes);
-
-/// VolumeBound's offsets of the tets of blocks; empty without a volume term.
-struct TetOffsets {
-    std::vector<BlockColumn> neo_hookean;  ///< [J]
-    std::vector<BlockColumn> volumes;      ///< by 6 V J, negative where vertices come clockwise [J/m^3]
-
-    TetOffsets() = default;
-    explicit TetOffsets(const TetBlocks& blocks);
-};
+TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes,
+                          const NodeTets& node_tets);
 
 }  // namespace gelatin::cpu

@@ -19,16 +19,6 @@ Real flat_tet_energy(Real ratio, Real stiffness) {
     return Real(0.5f) * stiffness * lack * lack;
 }
 
-///   force   V K (J_0 - J) dJ/dx,   hessian V K dJ/dx dJ/dx^T where J < J_0.
-/// @param slope dJ/dx [1/m]
-template <class Real, class Hessian>
-void add_flat_tet(const Vec3<Real>& slope, Real ratio, Real stiffness, NodeTerms<Real, Hessian>& terms) {
-    const Real lack = Real(kFlattest) - ratio;
-    const Real resisting = select(lack > Real(0), stiffness, Real(0));
-    terms.force = multiply_add(resisting * lack, slope, terms.force);
-    terms.hessian.add_outer(resisting, slope);
-}
-
 /// phi(J - 1) of the volume term, with J the volume around a node relative to that at rest: its energy over
 /// kappa and the volume at rest. phi(u) = u^2 / 2 if kappa > 0. If it is negative, the term takes energy out
 /// of a body that grows, and must be bounded: phi'(u) = u (1 - (u / a)^2)^2 up to |u| = a = 1/2, and 0
@@ -47,33 +37,4 @@ Real volume_stress(Real ratio, Real kappa) {
     const Real u = ratio - Real(1);
     const Real left = larger(Real(1) - Real(4) * u * u, Real(0));
     return kappa * u * select(kappa < Real(0), left * left, Real(1));
-}
-
-/// A tet's part of the volume term, as seen from one of its corners. With p the mean of volume_stress at its
-/// corners and J_0 its own J, both at the last evaluation, and k the mean |kappa| of its corners, the term is
-/// at most
-///   W = V (p (J - J_0) + k / 2 (J - J_0)^2)
-/// plus its value then.
-template <class Real>
-struct VolumeBound {
-    Real offset;   ///< V (p - k J_0) [J]
-    Real modulus;  ///< V k [J]
-
-    VolumeBound() : offset(Real(0)), modulus(Real(0)) {}
-    VolumeBound(Real at_zero, Real slope) : offset(at_zero), modulus(slope) {}
-};
-
-/// W, up to a constant [J].
-template <class Real>
-Real volume_bound_energy(Real ratio, const VolumeBound<Real>& bound) {
-    return multiply_add(Real(0.5f) * bound.modulus, ratio, bound.offset) * ratio;
-}
-
-/// @param slope, ratio as in add_flat_tet; or of another measure of the volume, of which the bound is, too
-template <class Real, class Hessian>
-void add_tet_volume(const Vec3<Real>& slope, Real ratio, const VolumeBound<Real>& bound,
-                    NodeTerms<Real, Hessian>& terms) {
-    const Real pressure = multiply_add(bound.modulus, ratio, bound.offset);
-    terms.force = multiply_add(-pressure, slope, terms.force);
-    terms.hessian.add_outer(bound.modulus, slope);
 }

@@ -6,8 +6,8 @@
 #include "cpu/nodes.h"
 #include "model/model.h"
 
-/// The exact volume term (model/elasticity/volume_term.h), not the bound that block descent uses
-/// (cpu/elasticity/tet_volume.inl). GLSL twins: shaders/sim/elasticity/volume_term.glsl, volume_force.glsl.
+/// The volume term (model/elasticity/volume_term.h). GLSL twins: shaders/sim/elasticity/volume_term.glsl,
+/// volume_force.glsl.
 namespace gelatin::cpu {
 
 /// J_n: the volume around node n relative to that at rest; 1 if there is none.

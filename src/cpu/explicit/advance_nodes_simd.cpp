@@ -134,7 +134,7 @@ TetBlocks make_pass_tets(const Model& model) {
     std::vector<std::uint32_t> nodes(model.node_count());
     std::iota(nodes.begin(), nodes.end(), 0u);
     while (nodes.size() % kGroup != 0) nodes.push_back(kNoNode);
-    return make_tet_blocks(model, nodes, make_node_tets(model.node_count(), model.tets), VolumesOf::all);
+    return make_tet_blocks(model, nodes, make_node_tets(model.node_count(), model.tets));
 }
 
 void advance_nodes_simd(const Pass<float>& pass, const TetBlocks& tets, Range slices) {

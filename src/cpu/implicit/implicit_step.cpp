@@ -15,10 +15,9 @@ namespace gelatin::cpu {
 
 template <class Real>
 ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const CollisionSettings& collision,
-                                 bool contacts, bool own, const ImplicitSettings& settings)
+                                 bool contacts, bool own, int iterations)
     : model_(std::move(model)),
       surface_(std::make_shared<ContactSurface>(make_contact_surface(*model_, collision))),
-      settings_(settings),
       contacts_(contacts),
       own_(own),
       object_of_(objects_of_nodes(*model_)),
@@ -35,7 +34,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
       ends_(model_->node_count()) {
-    system_.iterations = settings_.iterations;
+    system_.iterations = iterations;
 }
 
 template <class Real>
@@ -340,7 +339,7 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
         const std::uint32_t island = islands_.of_bodies[o];
         const double share = model_->objects[o].mass / islands_.masses[island];
         system_.enough[o] =
-            settings_.tolerance * (energies[o] + tuning::kInIsland * share * of_islands[island]);
+            tuning::kTolerance * (energies[o] + tuning::kInIsland * share * of_islands[island]);
     }
     // A hand pulls like inertia does, to a place of its own.
     if (input.pulls != nullptr)

@@ -8,8 +8,6 @@
 
 #include "core/archive.h"
 #include "core/stage_timer.h"
-#include "cpu/contact/tuning.h"
-#include "cpu/descent/rest_watch.h"
 #include "cpu/drive/pulls.h"
 #include "cpu/implicit/contact_rows.h"
 #include "cpu/implicit/energy_account.h"
@@ -17,6 +15,7 @@
 #include "cpu/implicit/guard.h"
 #include "cpu/implicit/islands.h"
 #include "cpu/implicit/paces.h"
+#include "cpu/implicit/rest_watch.h"
 #include "cpu/implicit/restitution.h"
 #include "cpu/implicit/step_system.h"
 #include "cpu/implicit/time_scheme.h"
@@ -27,12 +26,6 @@
 #include "model/solver.h"
 
 namespace gelatin::cpu {
-
-struct ImplicitSettings {
-    int iterations = 10;  ///< of conjugate gradients for each linearisation of contacts, at most
-    double tolerance =
-        tuning::kTolerance;  ///< of each: energy by which it may miss its least, as a part of the motion's
-};
 
 /// What a step is made with.
 template <class Real>
@@ -51,8 +44,9 @@ class ImplicitStep {
 public:
     /// @param contacts whether bodies meet others; planes always count @param own whether they meet
     /// themselves
+    /// @param iterations as ImplicitSettings has it
     ImplicitStep(std::shared_ptr<const Model> model, const CollisionSettings& collision, bool contacts,
-                 bool own, const ImplicitSettings& settings);
+                 bool own, int iterations);
 
     /// Forgets earlier steps, because nodes were set from outside.
     void restart();
@@ -116,7 +110,6 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    ImplicitSettings settings_;
     bool contacts_, own_;
     std::vector<std::uint32_t> object_of_;
     FindPairs<Real> pairs_;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "cpu/descent/motion.h"
+#include "cpu/implicit/motion.h"
 #include "cpu/implicit/contact_row.h"
 #include "cpu/nodes.h"
 #include "model/model.h"

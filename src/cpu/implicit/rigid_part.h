@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
-#include "cpu/descent/rigid_inertia.h"
+#include "cpu/implicit/rigid_inertia.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 

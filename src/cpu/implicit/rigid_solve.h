@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cpu/descent/motion.h"
+#include "cpu/implicit/motion.h"
 #include "cpu/implicit/island_rows.h"
 #include "cpu/implicit/rigid_level.h"
 #include "cpu/nodes.h"

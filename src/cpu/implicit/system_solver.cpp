@@ -6,18 +6,17 @@
 #include <utility>
 
 #include "cpu/contact/tuning.h"
-#include "cpu/descent/holding_forces.h"
+#include "cpu/implicit/holding_forces.h"
 
 namespace gelatin::cpu {
 
 template <class Real>
 SystemSolver<Real>::SystemSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision,
-                                 const DescentSettings& settings)
+                                 const ImplicitSettings& settings)
     : CpuSolver<Real>(std::move(model), collision),
       divides_steps_(settings.divides_steps),
       step_(model_, collision, has_contacts(*model_, collision),
-            has_contacts(*model_, collision) && collision.self_collision.value_or(true),
-            {.iterations = settings.iterations}),
+            has_contacts(*model_, collision) && collision.self_collision.value_or(true), settings.iterations),
       shape_matcher_(model_) {
     if (settings.sleeps && has_contacts(*model_, collision))
         rest_watch_.emplace(model_, step_.surface().thicknesses);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "cpu/cpu_solver.h"
-#include "cpu/descent/match_shapes.h"
-#include "cpu/descent/rest_watch.h"
 #include "cpu/implicit/implicit_step.h"
+#include "cpu/implicit/rest_watch.h"
+#include "cpu/recovery/match_shapes.h"
 
 namespace gelatin::cpu {
 
@@ -18,7 +18,7 @@ template <class Real>
 class SystemSolver : public CpuSolver<Real> {
 public:
     explicit SystemSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision = {},
-                          const DescentSettings& settings = {});
+                          const ImplicitSettings& settings = {});
 
     ContactForces contact_forces() const override { return step_.contact_forces(); }
     /// What contacts and their friction hold [J].

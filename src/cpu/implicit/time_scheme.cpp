@@ -7,7 +7,7 @@
 
 #include "core/disjoint_sets.h"
 #include "cpu/contact/tuning.h"
-#include "cpu/descent/rigid_inertia.h"
+#include "cpu/implicit/rigid_inertia.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {

@@ -3,7 +3,6 @@
 #include <numeric>
 #include <vector>
 
-#include "gpu/descent/descent_tables.h"
 #include "model/elasticity/element_edges.h"
 #include "model/elasticity/node_tets.h"
 
@@ -15,6 +14,17 @@ gl::Defines element_defines(const Model& model) {
     if (!model.volume_term.is_empty()) defines.emplace_back("VOLUME");
     if (!model.neo_hookean_tets.empty()) defines.emplace_back("NEO_HOOKEAN");
     return defines;
+}
+
+// Volume [m^3], modulus against being flat [Pa], stiffness of the volume term [Pa].
+std::vector<glm::vec4> rests_of(const Model& model) {
+    const std::vector<float>& stiffnesses = model.volume_term.tets;
+    std::vector<glm::vec4> rests;
+    for (std::size_t t = 0; t < model.tet_rests.size(); ++t) {
+        const TetRest& rest = model.tet_rests[t];
+        rests.emplace_back(rest.volume, rest.modulus, stiffnesses.empty() ? 0.0f : stiffnesses[t], 0.0f);
+    }
+    return rests;
 }
 
 std::vector<std::uint32_t> numbers_of_neo_hookean(const Model& model) {

@@ -26,7 +26,7 @@ Solver make_solver(const std::shared_ptr<const Model>& model, double restitution
         model,
         CollisionSettings{
             .response = CollisionResponse::contact, .friction = friction, .restitution = restitution},
-        DescentSettings{.divides_steps = divides_steps});
+        ImplicitSettings{.divides_steps = divides_steps});
 }
 
 struct Sums {

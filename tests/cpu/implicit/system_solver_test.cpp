@@ -30,7 +30,7 @@ cpu::SystemSolver<Real> make_system_solver(const std::shared_ptr<const Model>& m
         model,
         CollisionSettings{
             .response = CollisionResponse::contact, .self_collision = true, .friction = friction},
-        DescentSettings{.iterations = iterations, .divides_steps = divides_steps});
+        ImplicitSettings{.iterations = iterations, .divides_steps = divides_steps});
 }
 
 std::shared_ptr<const Model> meeting_blocks(double speed, double youngs_modulus,

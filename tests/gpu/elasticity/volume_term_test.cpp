@@ -6,7 +6,7 @@
 
 #include "gpu/support/solver_scenarios.h"
 #include "model/setting_names.h"
-#include "support/descend_on_gpu.h"
+#include "support/mixed_bodies.h"
 
 namespace gelatin {
 namespace {
@@ -29,7 +29,7 @@ TEST_P(VolumeEnergyParityTest, MatchesTheDoubleReference) {
 
 TEST(VolumeTermOnGpu, HasNodesBeyondTheLastFullGroup) {
     for (const double poisson_ratio : {0.0, 0.45}) {
-        const Model model = test::make_bodies_to_descend(2e-3, poisson_ratio);
+        const Model model = test::make_mixed_bodies(2e-3, poisson_ratio);
         EXPECT_NE(model.node_count() % 64, 0u);
         EXPECT_FALSE(model.volume_term.is_empty());
     }

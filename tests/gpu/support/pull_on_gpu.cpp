@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "cpu/descent/implicit_solver.h"
 #include "cpu/make_solver.h"
 #include "gpu/make_solver.h"
 #include "support/parity.h"
@@ -13,7 +12,6 @@ namespace gelatin::test {
 namespace {
 
 constexpr double kPullEps = std::numeric_limits<float>::epsilon();
-constexpr DescentSettings kSweeps{4};
 
 double largest(const std::vector<glm::vec4>& values) {
     double most = 0.0;
@@ -22,11 +20,9 @@ double largest(const std::vector<glm::vec4>& values) {
 }
 
 StepBounds bounds_for(const Model& model, const std::vector<Pull>& pulls, SolverKind solver, double step) {
-    const bool descends = solver == SolverKind::implicit;
-    const SolverKind alike = descends ? SolverKind::semi_implicit_euler : solver;
-    StepBounds bounds = rounding_bounds(model, alike, step);
+    StepBounds bounds = rounding_bounds(model, solver, step);
     const double v = largest(model.velocities);
-    const int passes = explicit_scheme(alike).pass_count;
+    const int passes = explicit_scheme(solver).pass_count;
     const auto add = [&](std::uint32_t node, double rounded) {  // [m/s^2]
         const double acceleration = passes * 16.0 * kPullEps * rounded;
         bounds.velocity[node] += step * acceleration;
@@ -44,20 +40,7 @@ StepBounds bounds_for(const Model& model, const std::vector<Pull>& pulls, Solver
     const std::vector<glm::vec3> forces = make_forces(model);
     for (std::uint32_t n = 0; n < model.node_count(); ++n)
         add(n, static_cast<double>(glm::length(forces[n]) * model.positions[n].w));
-    if (!descends) return bounds;
-    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        bounds.position[n] *= kSweeps.iterations;
-        bounds.velocity[n] += bounds.position[n] / step;
-    }
     return bounds;
-}
-
-// What the GPU's solver is compared with.
-std::unique_ptr<cpu::CpuSolver<double>> make_reference(std::shared_ptr<const Model> model, SolverKind solver,
-                                                       ForceMethod forces) {
-    if (solver == SolverKind::implicit)
-        return std::make_unique<cpu::ImplicitSolver<double>>(std::move(model), CollisionSettings{}, kSweeps);
-    return cpu::make_solver<double>(std::move(model), solver, forces, {}, kSweeps);
 }
 
 }  // namespace
@@ -88,8 +71,8 @@ std::vector<glm::vec3> make_forces(const Model& model) {
 
 double worst_pull_error(const Model& model, SolverKind solver, ForceMethod forces, double step) {
     const auto shared = std::make_shared<const Model>(model);
-    const auto reference = make_reference(shared, solver, forces);
-    const auto actual = gpu::make_solver(shared, solver, forces, {}, kSweeps);
+    const auto reference = cpu::make_solver<double>(shared, solver, forces);
+    const auto actual = gpu::make_solver(shared, solver, forces);
     const std::vector<Pull> pulls = make_pulls(model);
     Pull away = pulls[0];
     for (Pull::Node& held : away.nodes) held.node += model.node_count() - 1 - away.nodes.back().node;

@@ -18,7 +18,7 @@ namespace {
 // is of three materials.
 constexpr const char* kScene = R"(
 [simulation]
-solver = "vbd"
+solver = "implicit"
 substeps = 3
 iterations = 7
 frame_rate = 100
@@ -244,19 +244,19 @@ std::vector<ShortRun> short_runs() {
         scene.collision.detection = CollisionDetection::continuous;
     };
     return {
-        {"block descent", nothing, start_again, true},
-        {"block descent, pulled", nothing, pull},
-        {"block descent, dragged", nothing, drag},
-        {"block descent, volume term", volume_term, pull},
-        {"block descent, neo-Hookean", neo_hookean, pull},
-        {"block descent, squashed", squashed, start_again},
-        {"block descent, squashed neo-Hookean", both(squashed, neo_hookean)},
+        {"implicit", nothing, start_again, true},
+        {"implicit, pulled", nothing, pull},
+        {"implicit, dragged", nothing, drag},
+        {"implicit, volume term", volume_term, pull},
+        {"implicit, neo-Hookean", neo_hookean, pull},
+        {"implicit, squashed", squashed, start_again},
+        {"implicit, squashed neo-Hookean", both(squashed, neo_hookean)},
         {"contact", contact, start_again, true},
         {"contact, volume term", both(contact, volume_term), pull},
         {"contact, neo-Hookean", both(contact, neo_hookean)},
         {"contact, apart", contact_apart, start_again, true},
         {"contact, asleep", at_rest, fall_asleep},
-        {"the implicit step", nothing, [](Simulator&) { run_implicit_programs(); }},
+        {"the solve of an implicit step", nothing, [](Simulator&) { run_implicit_programs(); }},
         {"drawn from the CPU", nothing, start_again, true, Backend::cpu},
         {"painted", painted, start_again, true},
         {"painted, drawn from the CPU", painted, start_again, true, Backend::cpu},

@@ -11,8 +11,8 @@
 #include "gpu/support/tet_values.h"
 #include "gpu/support/watched_runs.h"
 #include "model/setting_names.h"
-#include "support/descend_on_gpu.h"
 #include "support/lost_shapes.h"
+#include "support/mixed_bodies.h"
 #include "support/parity.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
@@ -42,50 +42,9 @@ double step_error(const Model& model, SolverKind solver, ForceMethod forces) {
                        oracle_step(model, solver, kSolverStep), actual.positions, actual.velocities);
 }
 
-double descent_error(const Model& model, const Descent& descent) {
-    const NodeArrays actual = descend_on_gpu(model, descent);
-    if (!guards_are_untouched(model, actual)) return error_if(true);
-    return worst_descent_error(model, descent, actual);
-}
-
-// Of long and short steps with few sweeps and many.
-void add_descents(Scenarios& scenarios, const std::string& name, double damping, double poisson_ratio,
-                  MaterialModel material) {
-    for (const int iterations : {3, 1, 2, 10}) {
-        for (const double step : {kSolverFrame, 1e-3}) {
-            scenarios.push_back(
-                {fmt::format("{}_{}_{}_sweeps", name, step == kSolverFrame ? "long" : "short", iterations),
-                 [=] {
-                     return descent_error(make_bodies_to_descend(damping, poisson_ratio, material),
-                                          {step, {iterations}});
-                 }});
-        }
-    }
-}
-
-// At rest and then set in motion, so that bounds are tight.
-Model make_calm_tets(double damping) {
-    Material material;
-    material.model = MaterialModel::neo_hookean;
-    material.damping = damping;
-    Model model = make_model(make_body(make_block({6, 5, 4}, {0.6, 0.5, 0.4}, 0.2), material));
-    for (std::uint32_t n = 0; n < model.node_count(); ++n)
-        model.velocities[n].x = 0.5f * static_cast<float>(n % 7) - 1.5f;
-    return model;
-}
-
-// Its third body lies in one point.
-Model make_fallen_in_tets(double damping) {
-    Model model = make_bodies_to_descend(damping, 0.45, MaterialModel::neo_hookean);
-    const Range& point = model.objects[2].nodes;
-    for (std::uint32_t n = point.first; n < point.end(); ++n)
-        model.positions[n] = glm::vec4(0.0f, 1.0f, 1.0f, model.positions[n].w);
-    return model;
-}
-
 // No body is at rest.
 Model make_stretched_bodies(double damping, double poisson_ratio, MaterialModel material) {
-    Model model = make_bodies_to_descend(damping, poisson_ratio, material);
+    Model model = make_mixed_bodies(damping, poisson_ratio, material);
     for (glm::vec4& p : model.positions) p.x *= 1.02f;
     return model;
 }
@@ -156,59 +115,6 @@ Scenarios pull_scenarios() {
                                      }});
             }
         }
-        scenarios.push_back(
-            {"descent" + beside, [=] {
-                 const Model model = make_bodies_to_descend(0.01, 0.25, MaterialModel::mass_spring, driven);
-                 return worst_pull_error(model, SolverKind::implicit, ForceMethod::fused, kSolverFrame);
-             }});
-    }
-    return scenarios;
-}
-
-Scenarios descent_scenarios() {
-    Scenarios scenarios;
-    add_descents(scenarios, "free", 0.0, 0.25, MaterialModel::mass_spring);
-    add_descents(scenarios, "damped", 0.01, 0.25, MaterialModel::mass_spring);
-    for (const double poisson_ratio : {0.1, 0.4}) {
-        scenarios.push_back(
-            {fmt::format("poisson_ratio_{:.0f}_tenths", 10.0 * poisson_ratio), [=] {
-                 return descent_error(make_bodies_to_descend(0.0, poisson_ratio), {kSolverFrame, {5}});
-             }});
-    }
-    // Earlier velocities from which some nodes have gained less than nothing, some a part of gravity, some
-    // more than all.
-    scenarios.push_back({"looking_back", [] {
-                             const Model model = make_bodies_to_descend(0.0);
-                             Descent descent{kSolverFrame, {1}, model.velocities};
-                             for (std::uint32_t n = 0; n < model.node_count(); ++n)
-                                 descent.earlier_velocities[n].y += 0.1f * static_cast<float>(n % 8) - 0.25f;
-                             return descent_error(model, descent);
-                         }});
-    scenarios.push_back({"rotated", [] {
-                             const Model model = make_bodies_to_descend(0.01);
-                             return descent_error(model, {kSolverFrame, {3}, {}, rotated_start(model)});
-                         }});
-    scenarios.push_back({"sliding", sliding_descent_error});
-    for (const int iterations : {1, 5}) {
-        scenarios.push_back({fmt::format("degenerate_{}_sweeps", iterations),
-                             [=] { return degenerate_descent_error(iterations); }});
-    }
-    return scenarios;
-}
-
-Scenarios driven_descent_scenarios() {
-    Scenarios scenarios;
-    for (const double poisson_ratio : {0.25, 0.4}) {
-        for (const double step : {kSolverFrame, 1e-3}) {
-            scenarios.push_back(
-                {fmt::format("{}_poisson_ratio_{:.0f}_hundredths", step == kSolverFrame ? "long" : "short",
-                             100.0 * poisson_ratio),
-                 [=] {
-                     return descent_error(
-                         make_bodies_to_descend(0.01, poisson_ratio, MaterialModel::mass_spring, true),
-                         {step, {3}});
-                 }});
-        }
     }
     return scenarios;
 }
@@ -228,21 +134,6 @@ Scenarios neo_hookean_step_scenarios() {
                                      [=] { return step_error(make_lively_tets(damping), solver, forces); }});
             }
         }
-    }
-    return scenarios;
-}
-
-Scenarios neo_hookean_descent_scenarios() {
-    Scenarios scenarios;
-    for (const double damping : {0.0, 0.01}) {
-        const std::string name = damping > 0.0 ? "damped" : "free";
-        scenarios.push_back({name + "_calm", [=] {
-                                 return descent_error(make_calm_tets(damping), {kSolverFrame, {2}});
-                             }});
-        scenarios.push_back({name + "_point", [=] {
-                                 return descent_error(make_fallen_in_tets(damping), {kSolverFrame, {2}});
-                             }});
-        add_descents(scenarios, name, damping, 0.45, MaterialModel::neo_hookean);
     }
     return scenarios;
 }

@@ -15,21 +15,14 @@ Scenarios kinematics_scenarios();
 /// Loads at several points of their envelopes.
 Scenarios load_scenarios();
 
-/// A hand that holds nodes, in explicit steps and in block descent, beside loads and without.
+/// A hand that holds nodes, in explicit steps, beside loads and without.
 Scenarios pull_scenarios();
-
-/// Block descent of bodies in all states that it distinguishes.
-Scenarios descent_scenarios();
-
-/// Block descent with loads and moving handles.
-Scenarios driven_descent_scenarios();
 
 /// Bodies of three sizes that have lost their shapes.
 Scenarios matching_scenarios();
 
-/// Neo-Hookean tets: explicit steps, block descent, and energies.
+/// Neo-Hookean tets: explicit steps, and energies.
 Scenarios neo_hookean_step_scenarios();
-Scenarios neo_hookean_descent_scenarios();
 Scenarios neo_hookean_energy_scenarios();
 
 /// The volume term of springs, below and above a Poisson's ratio of 1/4: explicit steps and energies.

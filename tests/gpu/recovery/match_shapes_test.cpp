@@ -1,0 +1,43 @@
+#include "gpu/recovery/match_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include "gpu/support/solver_scenarios.h"
+#include "support/gl_fixture.h"
+#include "support/lost_shapes.h"
+
+namespace gelatin {
+namespace {
+
+class ShapeMatcherParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, ShapeMatcherParityTest, ::testing::ValuesIn(test::matching_scenarios()),
+                         test::name_of_scenario);
+
+TEST_P(ShapeMatcherParityTest, MatchesTheDoubleReference) {
+    EXPECT_LE(GetParam().error(), 1.0);
+}
+
+class ShapeMatcherOnGpuTest : public test::GlTest {};
+
+TEST_F(ShapeMatcherOnGpuTest, HasNodesBeyondTheLastFullGroupAndOfTwoChunks) {
+    const Model model = test::make_bodies_to_lose();
+    EXPECT_NE(model.node_count() % 64, 0u);
+    EXPECT_GT(model.objects[0].nodes.count, 256u);
+}
+
+TEST_F(ShapeMatcherOnGpuTest, LeavesOthersAsTheyAre) {
+    const Model model = test::make_bodies_to_lose();
+    const cpu::Nodes<float> before = test::lose_shapes(model, false);
+    std::vector<cpu::Nodes<float>> runs = {before};
+    test::match_on_gpu(model, runs);
+    for (const std::size_t kept : {1, 3}) {
+        const Range& nodes = model.objects[kept].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            EXPECT_EQ(runs[0].positions[n], before.positions[n]);
+            EXPECT_EQ(runs[0].velocities[n], before.velocities[n]);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gelatin
