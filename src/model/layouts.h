@@ -31,6 +31,7 @@ using glm::vec4;
 #include "layouts/skin_point.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/step_rows.glsl"
+#include "layouts/step_state.glsl"
 #include "layouts/step_system.glsl"
 #include "layouts/surface_vertex.glsl"
 #include "layouts/tet_strip.glsl"
@@ -42,6 +43,7 @@ static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(BodyInverse) == 144);
 static_assert(sizeof(BodyMotion) == 32);
+static_assert(sizeof(BodyPace) == 112);
 static_assert(sizeof(Box) == 32);
 static_assert(sizeof(Chunk) == 16);
 static_assert(sizeof(Cluster) == 96);
@@ -72,6 +74,7 @@ static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairRow) == 16);
 static_assert(sizeof(Proximity) == 48);
+static_assert(sizeof(PlaneMemory) == 32);
 static_assert(sizeof(ProximityCounts) == 16);
 static_assert(sizeof(ResidualSums) == 32);
 static_assert(sizeof(RestMoment) == 48);
@@ -85,6 +88,7 @@ static_assert(sizeof(SolveState) == 32);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(StepBody) == 80);
 static_assert(sizeof(StepBodySums) == 48);
+static_assert(sizeof(StepClock) == 64);
 static_assert(sizeof(StepIsland) == 48);
 static_assert(sizeof(StepPair) == 16);
 static_assert(sizeof(StepRow) == 96);
@@ -102,6 +106,7 @@ using layouts::Alarm;
 using layouts::ApproachSums;
 using layouts::BodyInverse;
 using layouts::BodyMotion;
+using layouts::BodyPace;
 using layouts::BoundingBox;
 using layouts::Box;
 using layouts::Chunk;
@@ -133,6 +138,7 @@ using layouts::NodeLoad;
 using layouts::NodeSums;
 using layouts::ObjectPair;
 using layouts::PairRow;
+using layouts::PlaneMemory;
 using layouts::Proximity;
 using layouts::ProximityCounts;
 using layouts::ResidualSums;
@@ -146,6 +152,7 @@ using layouts::SolveState;
 using layouts::Spring;
 using layouts::StepBody;
 using layouts::StepBodySums;
+using layouts::StepClock;
 using layouts::StepIsland;
 using layouts::StepPair;
 using layouts::StepRow;
