@@ -1,7 +1,7 @@
 // Compiled twice: as GLSL (std430) and as C++ (src/model/layouts.h).
 // How far a step is, which is made in parts. Each is tried, and tried again where that was too long; no try begins after the step is
 // made, and what is left of a try that is given up does nothing.
-struct StepClock {       // 64 bytes
+struct StepClock {       // 80 bytes
     float size;          // of the step [s]
     float left;          // of it [s]
     float longest;       // that a part may be [s]
@@ -18,6 +18,10 @@ struct StepClock {       // 64 bytes
     uint  made;          // parts of this step
     uint  is_guarded;    // 1: the guard has moved nodes
     uint  row_count;
+    uint  dropped_rows;  // for which there was no place
+    uint  begun;         // parts of this step of which a try has begun
+    uint  has_changed;   // 1: other nodes are held than in the part before; who has heard of it makes it 0
+    uint  unused;
 };
 // What a body passes on from part to part, and what its part begins with.
 struct BodyPace {        // 112 bytes
@@ -42,4 +46,25 @@ struct PlaneMemory {     // 32 bytes
     float ease;          // [m]
     float unused_0;
     float unused_1;
+};
+// Sums over a chunk's nodes where a part begins, about the first node of its object.
+struct StartSums {       // 64 bytes
+    vec4  momentum;      // [kg m/s]; w: mass [kg]
+    vec4  carried;       // of held nodes alone
+    vec4  angular;       // [kg m^2/s]; w: how many nodes are held
+    vec4  arm;           // mass times position [kg m]; w: the longest displacement without forces [m]
+};
+// The contacts with planes of a chunk of nodes.
+struct ChunkRows {       // 16 bytes
+    uint  count;
+    uint  first;         // of those of its object
+    float nearest;       // least gap of those that the part before had, as a part of the reach; at most 1
+    float deepest;       // how far they would come inside without forces, in reaches
+};
+// And of a body.
+struct BodyRows {        // 16 bytes
+    uint  count;
+    uint  has_changed;   // 1: not as many nodes are held as in the part before
+    float nearest;
+    float deepest;
 };

@@ -14,7 +14,10 @@ StepState::StepState(const Model& model, const ContactSurface& surface)
       accelerations(model.positions.size(), gl::TexelFormat::rgba32f),
       stiffness_(surface.stiffness, gl::TexelFormat::r32f),
       thicknesses_(std::vector<float>(surface.thicknesses.begin(), surface.thicknesses.end()),
-                   gl::TexelFormat::r32f) {
+                   gl::TexelFormat::r32f),
+      masses_(model.masses, gl::TexelFormat::r32f),
+      body_count_(static_cast<std::uint32_t>(model.body_count())),
+      body_nodes_(model.body_node_count()) {
     const std::size_t planes = std::max<std::size_t>(model.colliders.size() * model.body_node_count(), 1);
     plane_memories = gl::Buffer<PlaneMemory>(std::vector<PlaneMemory>(planes));
     plane_notes = gl::Buffer<PlaneMemory>(std::vector<PlaneMemory>(planes));
@@ -37,6 +40,9 @@ void StepState::bind(const gl::Program& program) const {
     bind_block("PlaneNotes", plane_notes);
     bind_block("node_stiffness", stiffness_);
     bind_block("thicknesses", thicknesses_);
+    bind_block("masses", masses_);
+    program.set("body_count", body_count_);
+    program.set("body_nodes", body_nodes_);
 }
 
 }  // namespace gelatin::gpu

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec4.hpp>
 #include <vector>
 
@@ -36,6 +37,8 @@ public:
 
 private:
     gl::TexelTable<float> stiffness_, thicknesses_;  // ContactSurface's: node_stiffness, thicknesses
+    gl::TexelTable<float> masses_;                   // of nodes: masses [kg]
+    std::uint32_t body_count_, body_nodes_;
 };
 
 }  // namespace gelatin::gpu
