@@ -94,7 +94,6 @@ inline constexpr Mutant kPartStartMutants[] = {
     {"contacts_are_no_stiffer_than_inertia", "sim/implicit/predict.comp",
      "texelFetch(node_stiffness, int(n)).x / 3.0", "0.0"},
     {"short_parts_have_stiff_contacts", "sim/implicit/predict.comp", "max(step, kFrame)", "step"},
-    {"moments_of_nodes_about_the_origin", "sim/implicit/predict.comp", "x.xyz - origin", "x.xyz"},
     {"moments_about_the_first_node", "sim/implicit/begin_bodies.comp",
      "- cross(sums.arm.xyz, sums.momentum.xyz) / mass", ""},
     {"handles_carry_nothing", "sim/implicit/begin_bodies.comp",
