@@ -149,18 +149,30 @@ class GlSystem {
 public:
     explicit GlSystem(const Model& model)
         : buffers_(model), nodes_(model.positions, model.velocities), system_(model) {
+        StepClock clock{};
+        clock.step = 1.0f / kInversePart;
+        clock.goes_on = 1;
+        clock_ = gl::Buffer<StepClock>(std::vector{clock});
+        std::vector<float> times;
+        for (const glm::vec4& velocity : model.velocities) times.push_back(velocity.w);
+        damping_times_ = {times, gl::TexelFormat::r32f};
         system_.loads().upload(loads_of(model));
         system_.displacements().upload(std::vector<glm::vec4>(model.node_count(), glm::vec4(0.0f)));
         system_.enough().upload(std::vector<float>(model.objects.size(), 0.0f));
         system_.iterations = kSolveIterations / 2;
         linearise();
     }
-    void linearise() { system_.elastic.linearise(buffers_, nodes_, kInversePart); }
-    void solve() { system_.solve(nodes_); }
+    void linearise() { system_.elastic.linearise(buffers_, nodes_, damping_times_.texels(), clock_); }
+    void solve() {
+        system_.begin_bodies(nodes_);
+        system_.solve(nodes_);
+    }
 
 private:
     gpu::ModelBuffers buffers_;
     gpu::NodeBuffers nodes_;
+    gl::TexelTable<float> damping_times_;
+    gl::Buffer<StepClock> clock_;
     gpu::StepSystem system_;
 };
 

@@ -12,3 +12,22 @@ const uint kMostLinearisations = 4u;
 const float kForcing = 0.05;
 // A sum over rows begins with so many at most.
 const uint kRowsOfChunk = 16u;
+// Where a part of a step begins.
+const float kFrame = 1.0 / 60.0;
+const float kRestingTime = 0.1;
+const uint kPartsOfMoving = 4u;
+const uint kPartsOfCalm = 2u;
+const uint kPartsOfStill = 1u;
+const uint kMostParts = 256u;
+const float kLeftOfFast = 0.7;
+const float kLeastReach = 1e-3;
+const float kEasing = 1.0 / 3.0;
+const float kPushing = 0.1;
+const float kSlackOfThickness = 0.5;
+const float kSlackOfMotion = 0.1;
+const float kDeepest = 20.0;
+const float kFastest = 80.0;
+const float kTolerance = 1e-4;
+const float kAtRest = 0.001;
+const float kInIsland = 0.1;
+const float kRoundings = 2.0;

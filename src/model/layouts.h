@@ -29,6 +29,7 @@ using glm::vec4;
 #include "layouts/skin_point.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/step_rows.glsl"
+#include "layouts/step_state.glsl"
 #include "layouts/step_system.glsl"
 #include "layouts/surface_vertex.glsl"
 #include "layouts/tet_corner.glsl"
@@ -41,8 +42,11 @@ static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(BodyInverse) == 144);
 static_assert(sizeof(BodyMotion) == 32);
+static_assert(sizeof(BodyPace) == 112);
+static_assert(sizeof(BodyRows) == 16);
 static_assert(sizeof(Box) == 32);
 static_assert(sizeof(Chunk) == 16);
+static_assert(sizeof(ChunkRows) == 16);
 static_assert(sizeof(Collider) == 64);
 static_assert(sizeof(ContactPatch) == 48);
 static_assert(sizeof(ContactResponse) == 48);
@@ -67,6 +71,7 @@ static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairRow) == 16);
 static_assert(sizeof(Proximity) == 48);
+static_assert(sizeof(PlaneMemory) == 32);
 static_assert(sizeof(ProximityCounts) == 16);
 static_assert(sizeof(ResidualSums) == 32);
 static_assert(sizeof(RestMoment) == 48);
@@ -78,6 +83,8 @@ static_assert(sizeof(SolveState) == 32);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(StepBody) == 80);
 static_assert(sizeof(StepBodySums) == 48);
+static_assert(sizeof(StartSums) == 64);
+static_assert(sizeof(StepClock) == 80);
 static_assert(sizeof(StepIsland) == 48);
 static_assert(sizeof(StepPair) == 16);
 static_assert(sizeof(StepRow) == 96);
@@ -95,9 +102,12 @@ using layouts::Alarm;
 using layouts::ApproachSums;
 using layouts::BodyInverse;
 using layouts::BodyMotion;
+using layouts::BodyPace;
 using layouts::BoundingBox;
+using layouts::BodyRows;
 using layouts::Box;
 using layouts::Chunk;
+using layouts::ChunkRows;
 using layouts::Collider;
 using layouts::ContactPatch;
 using layouts::ContactResponse;
@@ -121,6 +131,7 @@ using layouts::NodeLoad;
 using layouts::NodeSums;
 using layouts::ObjectPair;
 using layouts::PairRow;
+using layouts::PlaneMemory;
 using layouts::Proximity;
 using layouts::ProximityCounts;
 using layouts::ResidualSums;
@@ -131,8 +142,10 @@ using layouts::ShapeSums;
 using layouts::SkinPoint;
 using layouts::SolveState;
 using layouts::Spring;
+using layouts::StartSums;
 using layouts::StepBody;
 using layouts::StepBodySums;
+using layouts::StepClock;
 using layouts::StepIsland;
 using layouts::StepPair;
 using layouts::StepRow;

@@ -107,7 +107,7 @@ TEST_F(LayoutsTest, StepRows) {
           {FIELD(StepRow, node_0), FIELD(StepRow, node_1), FIELD(StepRow, node_2), FIELD(StepRow, node_3),
            FIELD(StepRow, weights), FIELD(StepRow, normal), FIELD(StepRow, reach), FIELD(StepRow, stiffness),
            FIELD(StepRow, damping), FIELD(StepRow, friction), FIELD(StepRow, hold), FIELD(StepRow, object),
-           FIELD(StepRow, other), FIELD(StepRow, unused_0), FIELD(StepRow, unused_1)});
+           FIELD(StepRow, other), FIELD(StepRow, collider), FIELD(StepRow, ease)});
     check("step_rows.glsl", "StepTangent", sizeof(StepTangent),
           {FIELD(StepTangent, constant), FIELD(StepTangent, diagonal), FIELD(StepTangent, beside)});
     check("step_rows.glsl", "StepPair", sizeof(StepPair),
@@ -119,6 +119,35 @@ TEST_F(LayoutsTest, StepRows) {
          FIELD(StepIsland, chunk_end), FIELD(StepIsland, first_row), FIELD(StepIsland, row_end),
          FIELD(StepIsland, first_row_chunk), FIELD(StepIsland, row_chunk_end), FIELD(StepIsland, first_pair),
          FIELD(StepIsland, pair_end), FIELD(StepIsland, unused_0), FIELD(StepIsland, unused_1)});
+}
+
+TEST_F(LayoutsTest, StepState) {
+    check("step_state.glsl", "StepClock", sizeof(StepClock),
+          {FIELD(StepClock, size),        FIELD(StepClock, left),         FIELD(StepClock, longest),
+           FIELD(StepClock, step),        FIELD(StepClock, last_step),    FIELD(StepClock, gained),
+           FIELD(StepClock, is_over),     FIELD(StepClock, goes_on),      FIELD(StepClock, damps),
+           FIELD(StepClock, has_past),    FIELD(StepClock, divides),      FIELD(StepClock, parts),
+           FIELD(StepClock, tries),       FIELD(StepClock, made),         FIELD(StepClock, is_guarded),
+           FIELD(StepClock, row_count),   FIELD(StepClock, dropped_rows), FIELD(StepClock, begun),
+           FIELD(StepClock, has_changed), FIELD(StepClock, unused)});
+    check("step_state.glsl", "BodyPace", sizeof(BodyPace),
+          {FIELD(BodyPace, pace), FIELD(BodyPace, is_struck), FIELD(BodyPace, held_count),
+           FIELD(BodyPace, is_held), FIELD(BodyPace, past), FIELD(BodyPace, damping),
+           FIELD(BodyPace, first_row), FIELD(BodyPace, row_end), FIELD(BodyPace, velocity),
+           FIELD(BodyPace, momentum), FIELD(BodyPace, angular), FIELD(BodyPace, force),
+           FIELD(BodyPace, moment)});
+    check("step_state.glsl", "PlaneMemory", sizeof(PlaneMemory),
+          {FIELD(PlaneMemory, hold), FIELD(PlaneMemory, reach), FIELD(PlaneMemory, ease),
+           FIELD(PlaneMemory, unused_0), FIELD(PlaneMemory, unused_1)});
+    check("step_state.glsl", "StartSums", sizeof(StartSums),
+          {FIELD(StartSums, momentum), FIELD(StartSums, carried), FIELD(StartSums, angular),
+           FIELD(StartSums, arm)});
+    check("step_state.glsl", "ChunkRows", sizeof(ChunkRows),
+          {FIELD(ChunkRows, count), FIELD(ChunkRows, first), FIELD(ChunkRows, nearest),
+           FIELD(ChunkRows, deepest)});
+    check("step_state.glsl", "BodyRows", sizeof(BodyRows),
+          {FIELD(BodyRows, count), FIELD(BodyRows, has_changed), FIELD(BodyRows, nearest),
+           FIELD(BodyRows, deepest)});
 }
 
 TEST_F(LayoutsTest, Draw) {

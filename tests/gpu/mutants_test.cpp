@@ -8,6 +8,7 @@
 
 #include "gpu/support/collision_scenarios.h"
 #include "gpu/support/implicit_scenarios.h"
+#include "gpu/support/part_start_scenarios.h"
 #include "gpu/support/solver_scenarios.h"
 #include "mutants/collision_mutants.h"
 #include "mutants/implicit_mutants.h"
@@ -44,6 +45,7 @@ INSTANTIATE_MUTANTS(Drive, kDriveMutants,
 INSTANTIATE_MUTANTS(Pulls, kPullMutants, pull_scenarios());
 INSTANTIATE_MUTANTS(ElasticSystem, kElasticSystemMutants, elastic_system_scenarios());
 INSTANTIATE_MUTANTS(StepSystem, kStepSystemMutants, step_system_scenarios());
+INSTANTIATE_MUTANTS(PartStart, kPartStartMutants, part_start_scenarios());
 INSTANTIATE_MUTANTS(Matching, kMatchingMutants, matching_scenarios());
 INSTANTIATE_MUTANTS(NeoHookean, kNeoHookeanMutants,
                     joined({neo_hookean_energy_scenarios(), neo_hookean_step_scenarios()}));

@@ -4,6 +4,7 @@
 // CPU twin: gelatin::cpu::ElasticSystem. Parity: tests/gpu/implicit/elastic_system_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/element_edge.glsl"
+#include "sim/implicit/clock.glsl"
 #include "sim/implicit/tets.glsl"
 layout(local_size_x = 64) in;
 
@@ -12,8 +13,8 @@ uniform usamplerBuffer edge_tet_starts;  // of the slices
 uniform samplerBuffer tet_rows;          // four a tet
 layout(std430) readonly buffer Edges { ElementEdge edges[]; };
 layout(std430) writeonly buffer Matrices { EdgeMatrix matrices[]; };
+uniform samplerBuffer damping_times;  // of nodes [s]
 uniform uint edge_count;
-uniform float inverse_step;  // [1/s]
 
 #ifdef NEO_HOOKEAN
 // The largest singular value is at most this: the root of the largest sum of a row of F^T F (Gershgorin).
@@ -36,8 +37,8 @@ mat3 neo_hookean_matrix(uint number, uvec4 tet, vec4 rest, uint c, uint e) {
     float over = 1.0 / (t.squares + 1.0), along = 2.0 * t.mu * over * over;
     mat3 diagonal = mat3(t.shear);
     float damping_time = 0.0;
-    for (int k = 0; k < 4; ++k) damping_time += 0.25 * texelFetch(velocities, int(tet[k])).w;
-    float viscosity = damping_time * inverse_step * 4.0 * over, damped_shear = viscosity * 0.75 * t.mu;
+    for (int k = 0; k < 4; ++k) damping_time += 0.25 * texelFetch(damping_times, int(tet[k])).x;
+    float viscosity = damping_time / clock[0].step * 4.0 * over, damped_shear = viscosity * 0.75 * t.mu;
     along += viscosity * (t.lambda - 0.625 * t.mu);
     for (int k = 0; k < 3; ++k) diagonal += damped_shear * outerProduct(f[k], f[k]);
     float most = t.shear / max(largest_stretch(f), 1e-6), turn = clamp(t.pressure, -most, most);
@@ -50,12 +51,12 @@ mat3 neo_hookean_matrix(uint number, uvec4 tet, vec4 rest, uint c, uint e) {
 
 void main() {
     uint index = global_index();
-    if (index >= edge_count) return;
+    if (index >= edge_count || !goes_on()) return;
     ElementEdge edge = edges[index];
     vec3 apart = texelFetch(positions, int(edge.upper)).xyz - texelFetch(positions, int(edge.lower)).xyz;
     float inverse_length = inversesqrt(max(dot(apart, apart), 1e-30));
-    float damping =
-        0.5 * inverse_step * (texelFetch(velocities, int(edge.lower)).w + texelFetch(velocities, int(edge.upper)).w);
+    float damping = 0.5 / clock[0].step *
+                    (texelFetch(damping_times, int(edge.lower)).x + texelFetch(damping_times, int(edge.upper)).x);
     float rest_length = (edge.rest_length + damping / inverse_length) / (1.0 + damping);
     float stiffness = edge.stiffness * (1.0 + damping);
     float pull = stiffness - stiffness * rest_length * inverse_length, across = max(pull, 0.0);

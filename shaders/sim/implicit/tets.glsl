@@ -3,7 +3,6 @@
 #include "layouts/thresholds.glsl"
 
 uniform samplerBuffer positions;   // xyz [m]
-uniform samplerBuffer velocities;  // w: damping time [s]
 uniform usamplerBuffer tets;       // their corners
 uniform samplerBuffer tet_rests;   // V [m^3], modulus against being flat [Pa], stiffness of the volume term [Pa]
 #ifdef VOLUME

@@ -134,8 +134,9 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
     for (const std::uint32_t r : new_rows_) {
         ContactRow<Real>& row = rows[r];
         const auto nearest = nearest_gaps_.find({row.object, row.other});
-        const Real part = row.gap / row.reach / (nearest == nearest_gaps_.end() ? Real(1) : nearest->second);
-        row.reach *= std::clamp(part, static_cast<Real>(tuning::kLeastReach), Real(1));
+        const Real part = nearest == nearest_gaps_.end() ? Real(1) : nearest->second;
+        // Alone it presses nothing: its reach is its gap, without rounding.
+        row.reach = std::clamp(row.gap / part, static_cast<Real>(tuning::kLeastReach) * row.reach, row.reach);
     }
 }
 

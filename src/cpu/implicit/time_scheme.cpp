@@ -8,6 +8,7 @@
 #include "core/disjoint_sets.h"
 #include "cpu/contact/tuning.h"
 #include "cpu/implicit/rigid_inertia.h"
+#include "model/elasticity/wave_times.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -21,15 +22,7 @@ TimeScheme<Real>::TimeScheme(std::shared_ptr<const Model> model)
       momenta_(model_->body_count()),
       rates_(model_->body_count()) {
     forget();
-    for (const ModelObject& body : model_->bodies()) {
-        double volume = 0.0, stiffness = 0.0;  // of bulk moduli, times volumes [J]
-        for (std::uint32_t t = body.tets.first; t < body.tets.end(); ++t) {
-            const TetRest& rest = model_->tet_rests[t];
-            volume += static_cast<double>(rest.volume);
-            stiffness += static_cast<double>(rest.volume) * static_cast<double>(rest.bulk);
-        }
-        wave_times_.push_back(static_cast<Real>(std::cbrt(volume) * std::sqrt(body.mass / stiffness)));
-    }
+    for (const double time : wave_times(*model_)) wave_times_.push_back(static_cast<Real>(time));
 }
 
 template <class Real>

@@ -42,7 +42,7 @@ void Pulls::upload() {
 
 void Pulls::bind(const gl::Program& program) const {
     program.bind("pulls", texels_);
-    program.set("is_pulled", acted_.nodes().empty() ? 0u : 1u);
+    program.set("is_pulled", is_acting() ? 1u : 0u);
 }
 
 }  // namespace gelatin::gpu

@@ -19,6 +19,8 @@ public:
     void move_pull(std::size_t pull, const glm::dvec3& target);
     void set_forces(std::span<const glm::vec3> forces);
 
+    /// Whether anything acts.
+    bool is_acting() const { return !acted_.nodes().empty(); }
     void bind(const gl::Program& program) const;
 
 private:

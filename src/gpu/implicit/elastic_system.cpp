@@ -120,15 +120,17 @@ void ElasticSystem::bind_product(const gl::Program& program, const gl::BufferTex
     program.bind("displacements", d);
 }
 
-void ElasticSystem::linearise(const ModelBuffers& model, const NodeBuffers& at, float inverse_step) const {
+void ElasticSystem::linearise(const ModelBuffers& model, const NodeBuffers& at,
+                              const gl::BufferTexture& damping_times,
+                              const gl::Buffer<StepClock>& clock) const {
     if (stresses_) stresses_->run(model, at);
-    for (const gl::Program* program : {&tet_program_, &edge_program_}) {
+    for (const gl::Program* program : {&tet_program_, &edge_program_, &node_program_})
+        program->bind("Clock", clock);
+    for (const gl::Program* program : {&tet_program_, &edge_program_})
         program->bind("positions", at.position_texels);
-        program->bind("velocities", at.velocity_texels);
-    }
+    edge_program_.bind("damping_times", damping_times);
     tet_program_.dispatch(tet_count_);
     gl::barrier(gl::Barrier::texture_fetch);
-    edge_program_.set("inverse_step", inverse_step);
     edge_program_.dispatch(edge_count_);
     gl::barrier(gl::Barrier::texture_fetch);
     node_program_.dispatch(node_count_);

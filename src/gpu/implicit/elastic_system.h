@@ -21,10 +21,11 @@ class ElasticSystem {
 public:
     explicit ElasticSystem(const Model& model);
 
-    /// @param at positions, and the damping times of nodes, where a part of a step begins
-    /// @param inverse_step [1/s]
-    /// Who reads what is found needs a barrier.
-    void linearise(const ModelBuffers& model, const NodeBuffers& at, float inverse_step) const;
+    /// If the try goes on. Who reads what is found needs a barrier.
+    /// @param at where a part of a step begins @param damping_times of nodes [s], a texel each
+    /// @param clock whose step is that of the part
+    void linearise(const ModelBuffers& model, const NodeBuffers& at, const gl::BufferTexture& damping_times,
+                   const gl::Buffer<StepClock>& clock) const;
 
     /// f [N], xyz, and the blocks of K on its diagonal, shape [nodes]; of held nodes, too.
     const gl::Buffer<glm::vec4>& forces() const { return forces_; }

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "gpu/chunks.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::gpu {
 namespace {
@@ -20,9 +21,9 @@ std::vector<float> weights_of(const Model& model) {
 
 }  // namespace
 
-StepBuffers::StepBuffers(const Model& model, std::size_t row_capacity)
+StepBuffers::StepBuffers(const Model& model, const RowCapacity& capacity)
     : object_count(static_cast<std::uint32_t>(model.objects.size())),
-      has_rows_(row_capacity > 0),
+      has_rows_(capacity.rows > 0),
       weights_(weights_of(model), gl::TexelFormat::r32f) {
     const auto rgba32f = gl::TexelFormat::rgba32f, rgba32ui = gl::TexelFormat::rgba32ui;
     const auto r32f = gl::TexelFormat::r32f, r32ui = gl::TexelFormat::r32ui;
@@ -53,21 +54,24 @@ StepBuffers::StepBuffers(const Model& model, std::size_t row_capacity)
     lacks_ = {chunks.size(), r32f};
     step_sums_ = {chunks.size(), gl::TexelFormat::rg32f};
     island_chunks_ = {chunks.size(), r32ui};
-    rows_ = {row_capacity, rgba32ui};
-    entry_starts_ = {row_capacity > 0 ? nodes + 1 : 0, r32ui};
-    row_entries_ = {4 * row_capacity, r32ui};
-    couplings_ = {2 * row_capacity, r32ui};
-    pairs_ = {row_capacity, rgba32ui};
-    row_chunks_ = {row_capacity, gl::TexelFormat::rg32ui};
-    tangents_ = {row_capacity, rgba32f};
-    for (StepBuffer<glm::vec4>* values : {&slips, &expected_, &changes_}) *values = {row_capacity, rgba32f};
-    arms_ = {2 * row_capacity, rgba32f};
-    row_sums_ = {kMatrixSums * row_capacity, rgba32f};
-    pair_sums_ = {kPairSums * row_capacity, rgba32f};
+    const std::size_t most_rows = capacity.rows,
+                      most_chunks = most_rows / contact_tuning::kRowsOfChunk + capacity.pairs;
+    rows = {most_rows, rgba32ui};
+    entry_starts_ = {most_rows > 0 ? nodes + 1 : 0, r32ui};
+    row_entries_ = {4 * most_rows, r32ui};
+    couplings_ = {2 * capacity.pairs, r32ui};
+    pairs_ = {capacity.pairs, rgba32ui};
+    row_chunks_ = {most_chunks, gl::TexelFormat::rg32ui};
+    tangents_ = {most_rows, rgba32f};
+    for (StepBuffer<glm::vec4>* values : {&slips, &expected_, &changes_}) *values = {most_rows, rgba32f};
+    arms_ = {2 * most_rows, rgba32f};
+    row_sums_ = {kMatrixSums * most_chunks, rgba32f};
+    pair_sums_ = {kPairSums * capacity.pairs, rgba32f};
 }
 
-void StepBuffers::set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies) {
-    const RowTables tables = make_row_tables(sizes_, rows, islands_of_bodies);
+void StepBuffers::set_rows(std::span<const StepRow> new_rows,
+                           std::span<const std::uint32_t> islands_of_bodies) {
+    const RowTables tables = make_row_tables(sizes_, new_rows, islands_of_bodies);
     islands_.values.upload(tables.islands);
     island_of_object_.values.upload(tables.island_of_object);
     island_bodies_.values.upload(tables.island_bodies);
@@ -80,7 +84,7 @@ void StepBuffers::set_rows(std::span<const StepRow> rows, std::span<const std::u
     row_entries_.values.upload(tables.row_entries);
     pairs_.values.upload(tables.pairs);
     row_chunks_.values.upload(tables.row_chunks);
-    rows_.values.upload(tables.rows);
+    rows.values.upload(tables.rows);
 }
 
 namespace {
@@ -108,7 +112,7 @@ void StepBuffers::bind(const gl::Program& program) const {
     program.set("object_count", object_count);
     bind_texels(program, "chunks", chunks_);
     bind_texels(program, "chunk_starts", chunk_starts_);
-    bind_texels(program, "loads", loads.texels);
+    bind_both(program, "Loads", "loads", loads);
     bind_both(program, "Displacements", "displacements", displacements);
     bind_both(program, "Steps", "steps", steps);
     bind_both(program, "Residuals", "residuals", residuals);
@@ -125,7 +129,7 @@ void StepBuffers::bind(const gl::Program& program) const {
 }
 
 void StepBuffers::bind_bodies(const gl::Program& program) const {
-    bind_texels(program, "enough", enough.texels);
+    bind_both(program, "Enough", "enough", enough);
     bind_texels(program, "weights", weights_);
     bind_block(program, "BodySums", body_sums_);
     bind_both(program, "Bodies", "bodies", bodies_);
@@ -136,14 +140,14 @@ void StepBuffers::bind_bodies(const gl::Program& program) const {
     bind_both(program, "BaseSums", "base_sums", base_sums);
     bind_both(program, "States", "states", states);
     bind_both(program, "Parts", "parts", parts_);
-    bind_texels(program, "islands", islands_.texels);
-    bind_texels(program, "island_of_object", island_of_object_.texels);
+    bind_both(program, "Islands", "islands", islands_);
+    bind_both(program, "IslandOfObject", "island_of_object", island_of_object_);
     bind_texels(program, "island_bodies", island_bodies_.texels);
     bind_texels(program, "island_chunks", island_chunks_.texels);
 }
 
 void StepBuffers::bind_rows(const gl::Program& program) const {
-    bind_block(program, "Rows", rows_);
+    bind_block(program, "Rows", rows);
     bind_both(program, "Slips", "slips", slips);
     bind_both(program, "Expected", "expected", expected_);
     bind_both(program, "Arms", "arms", arms_);
@@ -151,12 +155,12 @@ void StepBuffers::bind_rows(const gl::Program& program) const {
     bind_block(program, "RowSums", row_sums_);
     bind_block(program, "PairSums", pair_sums_);
     bind_both(program, "Tangents", "tangents", tangents_);
-    bind_texels(program, "pairs", pairs_.texels);
-    bind_texels(program, "row_chunks", row_chunks_.texels);
-    bind_texels(program, "coupling_starts", coupling_starts_.texels);
-    bind_texels(program, "couplings", couplings_.texels);
-    bind_texels(program, "entry_starts", entry_starts_.texels);
-    bind_texels(program, "row_entries", row_entries_.texels);
+    bind_both(program, "Pairs", "pairs", pairs_);
+    bind_both(program, "RowChunks", "row_chunks", row_chunks_);
+    bind_both(program, "CouplingStarts", "coupling_starts", coupling_starts_);
+    bind_both(program, "Couplings", "couplings", couplings_);
+    bind_both(program, "EntryStarts", "entry_starts", entry_starts_);
+    bind_both(program, "RowEntries", "row_entries", row_entries_);
 }
 
 }  // namespace gelatin::gpu

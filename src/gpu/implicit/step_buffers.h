@@ -27,12 +27,16 @@ struct StepBuffer {
     gl::BufferTexture texels;
 };
 
+/// Most contacts of a step, and most pairs of objects that have any.
+struct RowCapacity {
+    std::size_t rows = 0, pairs = 0;
+};
+
 /// All that the programs of a StepSystem share. Each is known by the name of its block and that of its
 /// sampler in shaders/sim/implicit/.
 class StepBuffers {
 public:
-    /// @param row_capacity most rows of a step
-    StepBuffers(const Model& model, std::size_t row_capacity);
+    StepBuffers(const Model& model, const RowCapacity& capacity);
 
     /// What the program's source names; but for what is bound to it by another name.
     void bind(const gl::Program& program) const;
@@ -47,6 +51,7 @@ public:
     StepBuffer<SolveState> states;                                            ///< by island, two by turns
     StepBuffer<glm::vec4> slips;         ///< by row: s [m]; w: limit of friction [N]
     StepBuffer<ResidualSums> base_sums;  ///< by chunk
+    StepBuffer<StepRow> rows;
 
 private:
     void bind_bodies(const gl::Program& program) const;
@@ -70,7 +75,6 @@ private:
         entry_starts_, row_entries_;
     StepBuffer<StepPair> pairs_;
     StepBuffer<glm::uvec2> row_chunks_;
-    StepBuffer<StepRow> rows_;
     StepBuffer<glm::vec4> expected_, changes_, arms_, row_sums_, pair_sums_;
     StepBuffer<StepTangent> tangents_;
 };

@@ -46,12 +46,12 @@ std::vector<const gl::Program*> StepSystem::RowPrograms::all() const {
     return {&begin, &base, &newton, &move, &linearise, &begin_again, &sum_step, &line_search};
 }
 
-StepSystem::StepSystem(const Model& model, std::size_t row_capacity)
+StepSystem::StepSystem(const Model& model, const RowCapacity& capacity)
     : elastic(model),
-      buffers_(model, row_capacity),
-      programs_(row_capacity > 0 ? gl::Defines{"ROWS"} : gl::Defines{}),
-      row_capacity_(row_capacity) {
-    if (row_capacity > 0) rows_.emplace();
+      buffers_(model, capacity),
+      programs_(capacity.rows > 0 ? gl::Defines{"ROWS"} : gl::Defines{}),
+      capacity_(capacity) {
+    if (capacity.rows > 0) rows_.emplace();
     std::vector<std::uint32_t> alone(model.body_count());
     std::iota(alone.begin(), alone.end(), 0u);
     set_rows({}, alone);
@@ -76,7 +76,7 @@ void StepSystem::bind_buffers() const {
 }
 
 void StepSystem::set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies) {
-    assert(rows.size() <= row_capacity_);
+    assert(rows.size() <= capacity_.rows);
     row_count_ = static_cast<std::uint32_t>(rows.size());
     buffers_.set_rows(rows, islands_of_bodies);
 }
@@ -117,16 +117,19 @@ std::uint32_t StepSystem::run_round(bool is_first, int count, std::uint32_t turn
     return turn;
 }
 
-void StepSystem::solve(const NodeBuffers& at) const {
-    for (const gl::Program* program : programs_.all()) bind_positions(*program, at);
-    programs_.direction.set("most_iterations", static_cast<std::uint32_t>(iterations));
+void StepSystem::begin_bodies(const NodeBuffers& at) const {
+    for (const gl::Program* program : {&programs_.sums, &programs_.bodies}) bind_positions(*program, at);
     run(programs_.sums, buffers_.chunk_count);
     programs_.bodies.dispatch(buffers_.object_count);
     gl::barrier(gl::Barrier::texture_fetch);
+}
+
+void StepSystem::solve(const NodeBuffers& at) const {
+    for (const gl::Program* program : programs_.all()) bind_positions(*program, at);
+    programs_.direction.set("most_iterations", static_cast<std::uint32_t>(iterations));
     if (rows_) {
         for (const gl::Program* program : rows_->all()) bind_positions(*program, at);
-        rows_->begin.set("row_count", row_count_);
-        rows_->begin.dispatch(row_count_);
+        rows_->begin.dispatch_groups(buffers_.object_count);
         run(rows_->base, buffers_.chunk_count);
         run_newton(contact_tuning::kBalance);
     }

@@ -25,8 +25,8 @@ namespace gelatin::gpu {
 /// CPU twin: cpu::StepSystem.
 class StepSystem {
 public:
-    /// @param row_capacity most rows of a step; without any, nothing is spent on them
-    explicit StepSystem(const Model& model, std::size_t row_capacity = 0);
+    /// @param capacity without any, nothing is spent on rows
+    explicit StepSystem(const Model& model, const RowCapacity& capacity = {});
 
     ElasticSystem elastic;
     /// m / h^2 (y - x) + f [N]; w: m / h^2 [N/m], 0 where a node is held; [nodes]
@@ -40,16 +40,23 @@ public:
     /// @param rows of objects; packing::kNone: a plane
     /// @param islands_of_bodies of each body the least one of its island; packing::kNone: it sleeps, all of
     /// its nodes are held, and nothing moves it. Of a row one side at least has an island.
-    /// @pre rows.size() <= row_capacity
+    /// @pre they are within the capacity
     void set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies);
-    /// @param at where the part begins; elastic.linearise() was called with it
+    /// Bodies as rigid ones, of what is in loads() and enough(). Ends with the barrier for who gathers them.
+    /// @param at where the part begins
+    void begin_bodies(const NodeBuffers& at) const;
+    /// After it. @param at the same; elastic.linearise() was called with it
     /// Ends with the barrier for who reads displacements as storage.
     void solve(const NodeBuffers& at) const;
 
+    /// What all its programs share, for those that make its input, and use what it has found.
+    const StepBuffers& buffers() const { return buffers_; }
+    const RowCapacity& capacity() const { return capacity_; }
+
     /// Of each island after the last solve; blocks until it has ended.
     std::vector<SolveState> states() const;
-    /// Of each row after the last solve, in the order of islands and objects: s [m]; w: what friction holds
-    /// with at most [N]. Blocks, too.
+    /// Of each row that the host has set, after the last solve, in the order of islands and objects: s [m];
+    /// w: what friction holds with at most [N]. Blocks, too.
     std::vector<glm::vec4> slips() const;
 
 private:
@@ -71,8 +78,8 @@ private:
     StepBuffers buffers_;
     Programs programs_;
     std::optional<RowPrograms> rows_;
-    [[maybe_unused]] std::size_t row_capacity_;
-    std::uint32_t row_count_ = 0;
+    RowCapacity capacity_;
+    std::uint32_t row_count_ = 0;  // of those that the host has set
 };
 
 }  // namespace gelatin::gpu

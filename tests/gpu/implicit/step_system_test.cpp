@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "cpu/contact/tuning.h"
 #include "gpu/support/implicit_scenarios.h"
 #include "model/shared_constants.h"
@@ -32,6 +34,22 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kMostRounds, static_cast<std::uint32_t>(cpu::kMostRounds));
     EXPECT_EQ(gpu::kMostRigidIterations, static_cast<std::uint32_t>(cpu::kMostRigidIterations));
     EXPECT_EQ(gpu::kMostLinearisations, static_cast<std::uint32_t>(cpu::kMostLinearisations));
+    EXPECT_EQ(gpu::kFrame, static_cast<float>(cpu::kFrame));
+    EXPECT_EQ(gpu::kRestingTime, static_cast<float>(cpu::kRestingTime));
+    EXPECT_EQ((std::array{gpu::kPartsOfMoving, gpu::kPartsOfCalm, gpu::kPartsOfStill}), cpu::kParts);
+    EXPECT_EQ(gpu::kMostParts, static_cast<std::uint32_t>(cpu::kMostParts));
+    EXPECT_EQ(gpu::kLeftOfFast, static_cast<float>(cpu::kLeftOfFast));
+    EXPECT_EQ(gpu::kLeastReach, static_cast<float>(cpu::kLeastReach));
+    EXPECT_EQ(gpu::kEasing, static_cast<float>(cpu::kEasing));
+    EXPECT_EQ(gpu::kPushing, static_cast<float>(cpu::kPushing));
+    EXPECT_EQ(gpu::kSlackOfThickness, static_cast<float>(cpu::kSlackOfThickness));
+    EXPECT_EQ(gpu::kSlackOfMotion, static_cast<float>(cpu::kSlackOfMotion));
+    EXPECT_EQ(gpu::kDeepest, static_cast<float>(cpu::kDeepest));
+    EXPECT_EQ(gpu::kFastest, static_cast<float>(cpu::kFastest));
+    EXPECT_EQ(gpu::kTolerance, static_cast<float>(cpu::kTolerance));
+    EXPECT_EQ(gpu::kAtRest, static_cast<float>(cpu::kAtRest));
+    EXPECT_EQ(gpu::kInIsland, static_cast<float>(cpu::kInIsland));
+    EXPECT_EQ(gpu::kRoundings, static_cast<float>(cpu::kRoundings));
 }
 
 class StepSystemOnGpuTest : public test::GlTest {};

@@ -15,6 +15,7 @@
 #include "cpu/implicit/step_system.h"
 #include "gpu/implicit/elastic_system.h"
 #include "gpu/implicit/step_system.h"
+#include "gpu/support/part_start_scenarios.h"
 #include "model/shared_constants.h"
 #include "support/contact_scenes.h"
 #include "support/converted.h"
@@ -27,6 +28,36 @@ namespace {
 
 constexpr float kInverseStep = 240.0f;  // [1/s]
 
+// A part of that length, and damping times of nodes as they are in the model.
+class ElasticStart {
+public:
+    explicit ElasticStart(const Model& model)
+        : buffers_(model), nodes(model.positions, model.velocities), clock_(std::vector{clock_of_part()}) {
+        std::vector<float> times;
+        for (const glm::vec4& v : model.velocities) times.push_back(v.w);
+        damping_times_ = {times, gl::TexelFormat::r32f};
+    }
+    void linearise(const gpu::ElasticSystem& system) const {
+        system.linearise(buffers_, nodes, damping_times_.texels(), clock_);
+    }
+
+private:
+    static StepClock clock_of_part() {
+        StepClock clock{};
+        clock.step = 1.0f / kInverseStep;
+        clock.goes_on = 1;
+        return clock;
+    }
+    gpu::ModelBuffers buffers_;
+
+public:
+    gpu::NodeBuffers nodes;
+
+private:
+    gl::Buffer<StepClock> clock_;
+    gl::TexelTable<float> damping_times_;
+};
+
 struct ElasticResult {
     std::vector<glm::dvec3> forces, diagonals, besides, products;
 };
@@ -38,10 +69,9 @@ std::vector<glm::dvec3> xyz_of(const std::vector<glm::vec4>& values) {
 }
 
 ElasticResult elastic_on_gpu(const Model& model) {
-    const gpu::ModelBuffers buffers(model);
-    const gpu::NodeBuffers at(model.positions, model.velocities);
+    const ElasticStart start(model);
     gpu::ElasticSystem system(model);
-    system.linearise(buffers, at, kInverseStep);
+    start.linearise(system);
     std::vector<glm::vec4> values;
     for (const cpu::Vec3<float>& d : random_field<float>(model.node_count(), 1)) values.emplace_back(d, 0.0f);
     system.displacements.upload(values);
@@ -169,14 +199,14 @@ StepRow converted_row(const cpu::ContactRow<double>& row) {
 
 SolveResult solve_on_gpu(const SolveCase& at) {
     const Model& model = *at.model;
-    const gpu::ModelBuffers buffers(model);
-    const gpu::NodeBuffers nodes(model.positions, model.velocities);
-    gpu::StepSystem system(model, at.rows.empty() ? 0 : at.rows.size() + 3);
+    const ElasticStart start(model);
+    const std::size_t most = at.rows.empty() ? 0 : at.rows.size() + 3;
+    gpu::StepSystem system(model, {most, most});
     system.enough().upload(std::vector<float>(model.objects.size(), at.enough));
     system.iterations = at.iterations;
     std::vector<StepRow> rows;
     for (const cpu::ContactRow<double>& row : at.rows) rows.push_back(converted_row(row));
-    system.elastic.linearise(buffers, nodes, kInverseStep);
+    start.linearise(system.elastic);
     const auto solve = [&](const SolveCase& some) {
         SolveInput input = solve_input(some);
         for (std::size_t o = 0; o < some.asleep.size(); ++o)
@@ -184,7 +214,8 @@ SolveResult solve_on_gpu(const SolveCase& at) {
         system.loads().upload(input.loads);
         system.displacements().upload(input.guesses);
         system.set_rows(rows, input.islands);
-        system.solve(nodes);
+        system.begin_bodies(start.nodes);
+        system.solve(start.nodes);
     };
     if (!at.asleep.empty()) {
         SolveCase awake = at;
@@ -407,6 +438,7 @@ void run_implicit_programs() {
     with_rows.iterations = 1;
     solve_on_gpu(with_rows);
     for (const ElasticCase& at : elastic_cases()) elastic_on_gpu(at.model);
+    run_part_start();
 }
 
 }  // namespace gelatin::test

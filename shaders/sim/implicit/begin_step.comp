@@ -1,0 +1,38 @@
+// Where a step begins: its clock, and where held nodes go by their velocities, one invocation a node.
+// CPU twin: gelatin::cpu::SystemSolver. Parity: tests/gpu/implicit/part_start_test.cpp.
+#include "include/global_index.glsl"
+#include "layouts/step_state.glsl"
+layout(local_size_x = 64) in;
+
+uniform samplerBuffer positions;   // xyz [m]; w: inverse mass, 0: held
+uniform samplerBuffer velocities;  // xyz [m/s]
+uniform uint node_count;
+uniform float size;                // of the step [s]
+uniform uint divides;
+layout(std430) buffer Clock { StepClock clock[]; };
+layout(std430) writeonly buffer Goals { vec4 goals[]; };  // of held nodes [m]
+
+void begin_clock() {
+    StepClock now = clock[0];  // what parts pass on goes on
+    now.size = size;
+    now.left = size;
+    now.longest = size;
+    now.step = size;
+    now.is_over = 0u;
+    now.goes_on = 0u;
+    now.damps = 0u;
+    now.divides = divides;
+    now.tries = 0u;
+    now.made = 0u;
+    now.begun = 0u;
+    now.dropped_rows = 0u;
+    clock[0] = now;
+}
+
+void main() {
+    uint n = global_index();
+    if (n == 0u) begin_clock();
+    if (n >= node_count) return;
+    vec4 x = texelFetch(positions, int(n));
+    if (x.w == 0.0) goals[n] = vec4(x.xyz + size * texelFetch(velocities, int(n)).xyz, 0.0);
+}

@@ -1,0 +1,130 @@
+#include "gpu/implicit/part_start.h"
+
+#include <cassert>
+
+#include "model/elasticity/wave_times.h"
+
+namespace gelatin::gpu {
+namespace {
+
+std::vector<float> wave_times_of(const Model& model) {
+    const std::vector<double> times = wave_times(model);
+    return {times.begin(), times.end()};
+}
+
+gl::Defines load_defines(const Model& model) {
+    return model.loads.empty() ? gl::Defines{} : gl::Defines{"LOADED"};
+}
+
+}  // namespace
+
+PartStart::Programs::Programs(const Model& model, bool rows)
+    : begin_step(gl::Program::compute("sim/implicit/begin_step.comp")),
+      begin_try(gl::Program::compute("sim/implicit/begin_try.comp")),
+      predict(gl::Program::compute("sim/implicit/predict.comp", load_defines(model))),
+      begin_bodies(gl::Program::compute("sim/implicit/begin_bodies.comp")),
+      place_rows(gl::Program::compute("sim/implicit/place_rows.comp")),
+      find_targets(gl::Program::compute("sim/implicit/find_targets.comp", load_defines(model))),
+      find_enough(gl::Program::compute("sim/implicit/find_enough.comp")),
+      sum_motions(gl::Program::compute("sim/implicit/sum_motions.comp")),
+      follow_rotation(gl::Program::compute("sim/implicit/follow_rotation.comp")),
+      has_rows(rows) {
+    if (!rows) return;
+    const gl::Defines kinds = ModelBuffers::collider_defines(model);
+    count_rows = gl::Program::compute("sim/implicit/count_rows.comp", kinds);
+    make_rows = gl::Program::compute("sim/implicit/make_rows.comp", kinds);
+}
+
+std::vector<const gl::Program*> PartStart::Programs::all() const {
+    std::vector<const gl::Program*> all = {&begin_step,   &begin_try,   &predict,
+                                           &begin_bodies, &place_rows,  &find_targets,
+                                           &find_enough,  &sum_motions, &follow_rotation};
+    if (has_rows) all.insert(all.end(), {&count_rows, &make_rows});
+    return all;
+}
+
+PartStart::PartStart(const Model& model, const StepState& state, const StepSystem& system)
+    : state_(state),
+      system_(system),
+      node_count_(model.node_count()),
+      body_count_(static_cast<std::uint32_t>(model.body_count())),
+      chunk_count_(system.buffers().chunk_count),
+      has_loads_(!model.loads.empty()),
+      programs_(model, system.capacity().rows > 0),
+      wave_times_(wave_times_of(model), gl::TexelFormat::r32f),
+      part_sums_(chunk_count_, gl::TexelFormat::rgba32f),
+      chunk_rows_(chunk_count_, gl::TexelFormat::rgba32ui),
+      body_rows_(body_count_, gl::TexelFormat::rgba32ui),
+      damping_times_(node_count_, gl::TexelFormat::r32f),
+      energies_(chunk_count_, gl::TexelFormat::r32f) {
+    assert(system.capacity().rows > 0 ? system.capacity().pairs >= body_count_ : model.colliders.empty());
+    bind_buffers();
+}
+
+// What never changes.
+void PartStart::bind_buffers() const {
+    const auto bind_if_declared = [](const gl::Program& program, const char* name, const auto& buffer) {
+        if (program.declares(name)) program.bind(name, buffer);
+    };
+    for (const gl::Program* program : programs_.all()) {
+        system_.buffers().bind(*program);
+        state_.bind(*program);
+        bind_if_declared(*program, "positions", state_.from.position_texels);
+        bind_if_declared(*program, "velocities", state_.from.velocity_texels);
+        bind_if_declared(*program, "Velocities", state_.from.velocities);
+        bind_if_declared(*program, "wave_times", wave_times_);
+        bind_if_declared(*program, "PartSums", part_sums_.values);
+        bind_if_declared(*program, "part_sums", part_sums_.texels);
+        bind_if_declared(*program, "RowsOfChunks", chunk_rows_.values);
+        bind_if_declared(*program, "chunk_rows", chunk_rows_.texels);
+        bind_if_declared(*program, "RowsOfBodies", body_rows_.values);
+        bind_if_declared(*program, "body_rows", body_rows_.texels);
+        bind_if_declared(*program, "DampingTimes", damping_times_.values);
+        bind_if_declared(*program, "Energies", energies_.values);
+        bind_if_declared(*program, "ElasticForces", system_.elastic.forces());
+        program->set("row_capacity", static_cast<std::uint32_t>(system_.capacity().rows));
+        program->set("node_count", node_count_);
+    }
+}
+
+void PartStart::run(const gl::Program& program, std::uint32_t groups) const {
+    program.dispatch_groups(groups);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+}
+
+void PartStart::begin_step(double size, bool divides) const {
+    programs_.begin_step.set("size", static_cast<float>(size));
+    programs_.begin_step.set("divides", divides ? 1u : 0u);
+    run(programs_.begin_step, (node_count_ + 63) / 64);
+}
+
+void PartStart::run(const ModelBuffers& model, const SumLoads* loads) const {
+    assert((loads != nullptr) == has_loads_);
+    const Programs& p = programs_;
+    for (const gl::Program* program : {&p.predict, &p.find_targets}) {
+        if (loads != nullptr) loads->bind(*program);
+        program->set("gravity", model.gravity);
+    }
+    model.pulls.bind(p.find_targets);
+    p.begin_bodies.set("has_forces", loads != nullptr || model.pulls.is_acting() ? 1u : 0u);
+    run(p.begin_try, 1);
+    run(p.predict, chunk_count_);
+    if (p.has_rows) {
+        model.bind_colliders(p.count_rows);
+        run(p.count_rows, chunk_count_);
+    }
+    run(p.begin_bodies, body_count_);
+    run(p.place_rows, 1);
+    if (p.has_rows) {
+        model.bind_colliders(p.make_rows);
+        run(p.make_rows, chunk_count_);
+    }
+    run(p.find_targets, chunk_count_);
+    run(p.find_enough, body_count_);
+    system_.elastic.linearise(model, state_.from, damping_times_.texels, state_.clock);
+    system_.begin_bodies(state_.from);
+    run(p.sum_motions, chunk_count_);
+    run(p.follow_rotation, chunk_count_);
+}
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gpu/drive/sum_loads.h"
+#include "gpu/implicit/step_state.h"
+#include "gpu/implicit/step_system.h"
+#include "gpu/model_buffers.h"
+#include "model/model.h"
+
+namespace gelatin::gpu {
+
+/// Where a part of a step begins: what its system is made of. Bodies touch colliders alone, so each is an
+/// island by itself. Or the part is found to be too long: then the clock has a shorter one for the next try,
+/// and there are no islands. Nothing is read back. CPU twin: cpu::ImplicitStep.
+class PartStart {
+public:
+    /// @param state, system which it writes, and which have to live as long
+    /// @pre the system's capacity has a pair for each body, or there are no colliders
+    PartStart(const Model& model, const StepState& state, const StepSystem& system);
+
+    /// Once, when velocities of held nodes take them to where handles want them. @param size of the step [s]
+    /// @param divides whether it is divided where bodies touch others
+    void begin_step(double size, bool divides) const;
+    /// A try, up to where StepSystem::solve(state.from) goes on. Ends with the barrier for it.
+    /// @param loads that were summed where the part begins; null if the model has none
+    void run(const ModelBuffers& model, const SumLoads* loads) const;
+
+private:
+    struct Programs {
+        Programs(const Model& model, bool has_rows);
+        std::vector<const gl::Program*> all() const;
+        gl::Program begin_step, begin_try, predict, count_rows, begin_bodies, place_rows, make_rows,
+            find_targets, find_enough, sum_motions, follow_rotation;
+        bool has_rows;
+    };
+    void bind_buffers() const;
+    void run(const gl::Program& program, std::uint32_t groups) const;
+
+    const StepState& state_;
+    const StepSystem& system_;
+    std::uint32_t node_count_, body_count_, chunk_count_;
+    [[maybe_unused]] bool has_loads_;
+    Programs programs_;
+    gl::TexelTable<float> wave_times_;  // of bodies [s]
+    StepBuffer<StartSums> part_sums_;   // by chunk
+    StepBuffer<ChunkRows> chunk_rows_;
+    StepBuffer<BodyRows> body_rows_;
+    StepBuffer<float> damping_times_;  // of nodes [s]
+    StepBuffer<float> energies_;       // by chunk [J]
+};
+
+}  // namespace gelatin::gpu
