@@ -98,7 +98,7 @@ Measurement CpuSolver<Real>::end_measure() {
 }
 
 template <class Real>
-State CpuSolver<Real>::read_state() const {
+State CpuSolver<Real>::read_state() {
     State state{{current_.positions.begin(), current_.positions.end()},
                 {current_.velocities.begin(), current_.velocities.end()},
                 {}};

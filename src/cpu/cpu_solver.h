@@ -26,7 +26,7 @@ public:
     Alarm alarm(bool /*wait*/) override { return alarm_; }
     void begin_measure() override;
     Measurement end_measure() override;
-    State read_state() const override;
+    State read_state() override;
     HostNodes host_nodes() const override;
     void write_state(const State& state) override;
     StageTimer& stage_timer() override { return timer_; }

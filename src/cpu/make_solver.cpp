@@ -10,9 +10,9 @@ namespace gelatin::cpu {
 template <class Real>
 std::unique_ptr<CpuSolver<Real>> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
                                              ForceMethod forces, const CollisionSettings& collision,
-                                             const ImplicitSettings& descent) {
+                                             const ImplicitSettings& implicit) {
     if (solver == SolverKind::implicit)
-        return std::make_unique<SystemSolver<Real>>(std::move(model), collision, descent);
+        return std::make_unique<SystemSolver<Real>>(std::move(model), collision, implicit);
     return std::make_unique<ExplicitSolver<Real>>(std::move(model), solver, forces, collision);
 }
 

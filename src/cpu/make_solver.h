@@ -6,11 +6,11 @@
 
 namespace gelatin::cpu {
 
-/// @param forces of explicit solvers @param descent of implicit ones
+/// @param forces of explicit solvers @param implicit of implicit ones
 template <class Real>
 std::unique_ptr<CpuSolver<Real>> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
                                              ForceMethod forces = ForceMethod::fused,
                                              const CollisionSettings& collision = {},
-                                             const ImplicitSettings& descent = {});
+                                             const ImplicitSettings& implicit = {});
 
 }  // namespace gelatin::cpu

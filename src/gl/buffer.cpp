@@ -97,6 +97,14 @@ void RawBuffer::upload(std::size_t offset, std::size_t bytes, const void* data) 
     glDeleteBuffers(1, &staging);
 }
 
+void RawBuffer::copy_from(const RawBuffer& source) {
+    if (bytes_ == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->copies(source.id(), id());
+    glBindBuffer(GL_COPY_READ_BUFFER, source.id());
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id());
+    glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(bytes_));
+}
+
 void RawBuffer::download(std::size_t offset, std::size_t bytes, void* out) const {
     if (bytes == 0) return;
     if (hazard_probe != nullptr) hazard_probe->downloads(id());

@@ -32,6 +32,7 @@ public:
     void upload(std::size_t offset, std::size_t bytes, const void* data);
     void download(std::size_t offset, std::size_t bytes, void* out) const;
     void fill(std::uint32_t value);
+    void copy_from(const RawBuffer& source);
 
 private:
     ObjectName name_;
@@ -75,6 +76,10 @@ public:
     /// Copies the contents to `out`; blocks until the GPU has finished.
     /// @pre out.size() == size(), and barrier(buffer_update) since the last dispatch
     void download(std::span<T> out) const { raw_.download(0, out.size_bytes(), out.data()); }
+
+    /// Copies all elements on the device. @pre source.size() == size(), and barrier(buffer_update) since the
+    /// last dispatch
+    void copy_from(const Buffer& source) { raw_.copy_from(source.raw_); }
 
     /// Sets every element, without a copy from the host. @pre barrier(buffer_update) since the last dispatch
     void fill(std::uint32_t value) requires std::is_same_v<T, std::uint32_t> { raw_.fill(value); }

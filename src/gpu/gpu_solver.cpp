@@ -59,7 +59,7 @@ void GpuSolver::begin_measure() {
                    plan_.proximities ? &collision_->near->buffers : nullptr);
 }
 
-State GpuSolver::read_state() const {
+State GpuSolver::read_state() {
     gl::barrier(gl::Barrier::buffer_update);
     State state;
     state.positions.resize(model_->positions.size());

@@ -38,7 +38,7 @@ public:
     ContactForces contact_forces() const override { return {}; }
     HoldingForces holding_forces() const override { return {}; }
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) const override { return {}; }
-    State read_state() const override;
+    State read_state() override;
     HostNodes host_nodes() const override { return {}; }
     void write_state(const State& state) override;
     StageTimer& stage_timer() override { return timer_; }

@@ -9,9 +9,9 @@ namespace gelatin::gpu {
 
 std::unique_ptr<GpuSolver> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
                                        ForceMethod forces, const CollisionSettings& collision,
-                                       const ImplicitSettings& descent) {
+                                       const ImplicitSettings& implicit) {
     if (solver == SolverKind::implicit)
-        return std::make_unique<ImplicitSolver>(std::move(model), collision, descent);
+        return std::make_unique<ImplicitSolver>(std::move(model), collision, implicit);
     return std::make_unique<ExplicitSolver>(std::move(model), solver, forces, collision);
 }
 

@@ -155,7 +155,7 @@ public:
     virtual std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const = 0;
 
     /// Waits for a device.
-    virtual State read_state() const = 0;
+    virtual State read_state() = 0;
     /// What State::memory needs for the next step to be the same to the last bit; read_state() leaves it out.
     virtual std::string memory() { return {}; }
     virtual HostNodes host_nodes() const = 0;

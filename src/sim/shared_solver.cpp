@@ -14,8 +14,8 @@ CollisionSettings of_host(CollisionSettings collision) {
 }  // namespace
 
 SharedSolver::SharedSolver(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
-                           const ImplicitSettings& descent)
-    : GpuSolver(model, collision), host_(model, of_host(collision), descent) {}
+                           const ImplicitSettings& implicit)
+    : GpuSolver(model, collision), host_(model, of_host(collision), implicit) {}
 
 void SharedSolver::advance_nodes(const Step& step) {
     host_.advance_nodes(step);

@@ -16,7 +16,7 @@ namespace gelatin {
 class SharedSolver : public gpu::GpuSolver {
 public:
     SharedSolver(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
-                 const ImplicitSettings& descent);
+                 const ImplicitSettings& implicit);
 
     void set_pulls(std::vector<Pull> pulls) override { host_.set_pulls(std::move(pulls)); }
     void move_pull(std::size_t pull, const glm::dvec3& target) override { host_.move_pull(pull, target); }
@@ -26,7 +26,7 @@ public:
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override {
         return host_.held_up(poses);
     }
-    State read_state() const override { return host_.read_state(); }
+    State read_state() override { return host_.read_state(); }
     std::string memory() override { return host_.memory(); }
     HostNodes host_nodes() const override { return host_.host_nodes(); }
     void write_state(const State& state) override;

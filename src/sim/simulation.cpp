@@ -50,9 +50,9 @@ void Simulation::begin() {
 
 BackendSolver Simulation::make_solver(const Scene& of, const std::shared_ptr<const Model>& from) const {
     const SimulationSettings& settings = of.simulation;
-    ImplicitSettings descent{settings.iterations};
-    descent.divides_steps = of.has_contact() && !settings.substeps;
-    descent.sleeps = of.has_contact() && settings.sleep;
+    ImplicitSettings implicit{settings.iterations};
+    implicit.divides_steps = of.has_contact() && !settings.substeps;
+    implicit.sleeps = of.has_contact() && settings.sleep;
     const auto timed = [&](auto made) {
         made->stage_timer().time_stages(options.time_stages);
         made->stage_timer().time_parts(options.time_parts);
@@ -60,12 +60,12 @@ BackendSolver Simulation::make_solver(const Scene& of, const std::shared_ptr<con
     };
     if (!choose_gl(options, context))
         return timed(std::shared_ptr(
-            cpu::make_solver<float>(from, settings.solver, settings.forces, of.collision, descent)));
+            cpu::make_solver<float>(from, settings.solver, settings.forces, of.collision, implicit)));
     if (!has_contacts(*from, of.collision))
         return timed(
-            std::shared_ptr(gpu::make_solver(from, settings.solver, settings.forces, of.collision, descent)));
+            std::shared_ptr(gpu::make_solver(from, settings.solver, settings.forces, of.collision, implicit)));
     return timed(
-        std::shared_ptr<gpu::GpuSolver>(std::make_shared<SharedSolver>(from, of.collision, descent)));
+        std::shared_ptr<gpu::GpuSolver>(std::make_shared<SharedSolver>(from, of.collision, implicit)));
 }
 
 void Simulation::step() {

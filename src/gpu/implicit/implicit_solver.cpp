@@ -1,13 +1,100 @@
 #include "gpu/implicit/implicit_solver.h"
 
+#include <algorithm>
+#include <cstring>
 #include <utility>
 
+#include "model/contact/contact_surface.h"
+
 namespace gelatin::gpu {
+namespace {
+
+// Contacts with colliders, of nodes on surfaces; those within a body come near one only where it is crushed.
+RowCapacity capacity_of(const Model& model) {
+    if (model.colliders.empty()) return {};
+    return {model.colliders.size() * model.surface_parts.nodes.size(), model.body_count()};
+}
+
+void copy_nodes(const NodeBuffers& from, NodeBuffers& to) {
+    gl::barrier(gl::Barrier::buffer_update);
+    to.positions.copy_from(from.positions);
+    to.velocities.copy_from(from.velocities);
+}
+
+}  // namespace
 
 ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision,
-                               const ImplicitSettings& /*settings*/)
-    : GpuSolver(std::move(model), collision) {}
+                               const ImplicitSettings& settings)
+    : GpuSolver(std::move(model), collision),
+      divides_steps_(settings.divides_steps),
+      state_(*model_, make_contact_surface(*model_, collision)),
+      system_(*model_, capacity_of(*model_)),
+      start_(*model_, state_, system_),
+      end_(*model_, state_, system_),
+      shape_matcher_(*model_) {
+    system_.iterations = settings.iterations;
+}
 
-void ImplicitSolver::advance_nodes(const Step& /*step*/) {}
+void ImplicitSolver::begin_measure() {
+    complete();
+    GpuSolver::begin_measure();
+}
+
+State ImplicitSolver::read_state() {
+    complete();
+    return GpuSolver::read_state();
+}
+
+void ImplicitSolver::write_state(const State& state) {
+    complete();
+    GpuSolver::write_state(state);
+    if (has_earlier_ && size_ > 0.0)
+        end_.go_on(state.positions, state.velocities, state.earlier_velocities, size_);
+    else
+        end_.forget();
+}
+
+void ImplicitSolver::apply_kinematics(std::span<const HandleMotion> motions) {
+    complete();
+    GpuSolver::apply_kinematics(motions);
+}
+
+void ImplicitSolver::advance_nodes(const Step& step) {
+    complete();
+    size_ = step.size;
+    loads_ = loads_of(step);
+    std::swap(current_, previous_);
+    copy_nodes(previous_, state_.from);
+    shape_matcher_.run(state_.from);
+    start_.begin_step(step.size, divides_steps_);
+    end_.begin_step(buffers_);
+    has_earlier_ = true;
+    make_tries();
+}
+
+// And begins to ask whether they were enough.
+void ImplicitSolver::make_tries() {
+    StageTimer* const timer = timer_.for_parts();
+    for (std::uint32_t k = 0; k < tries_; ++k) {
+        if (loads_ != nullptr) loads_->run(state_.from);
+        start_.run(buffers_, loads_);
+        {
+            const TimedStage part(timer, "advance_nodes.solve");
+            system_.solve(state_.from);
+        }
+        end_.run(buffers_, loads_);
+    }
+    copy_nodes(state_.from, current_);
+    clocks_.begin(state_.clock.id(), sizeof(StepClock));
+}
+
+void ImplicitSolver::complete() {
+    while (clocks_.pending() > 0) {
+        StepClock clock;
+        std::memcpy(&clock, clocks_.take().data(), sizeof(clock));
+        tries_ = std::clamp(clock.tries + 1, 2u, 8u);
+        if (clock.is_over == 0) make_tries();
+    }
+}
 
 }  // namespace gelatin::gpu

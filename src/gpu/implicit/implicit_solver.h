@@ -1,19 +1,53 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
 
+#include "gl/readback.h"
 #include "gpu/gpu_solver.h"
+#include "gpu/implicit/part_end.h"
+#include "gpu/implicit/part_start.h"
+#include "gpu/implicit/step_state.h"
+#include "gpu/implicit/step_system.h"
+#include "gpu/recovery/match_shapes.h"
 
 namespace gelatin::gpu {
 
-/// Placeholder.
+/// Makes implicit steps, without contacts between bodies: SharedSolver has those.
+///
+/// A step is made in parts, and a part may take several tries (PartEnd). How many it takes the device alone
+/// knows, so the host launches as many as the steps before have needed and one more. What is left of a step
+/// after these is made before anybody reads nodes, or the next step begins: until then a picture shows bodies
+/// that are late by so much. CPU twin: cpu::SystemSolver.
 class ImplicitSolver : public GpuSolver {
 public:
     explicit ImplicitSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision = {},
                             const ImplicitSettings& settings = {});
 
+    void begin_measure() override;
+    State read_state() override;
+    void write_state(const State& state) override;
+
 protected:
+    void apply_kinematics(std::span<const HandleMotion> motions) override;
     void advance_nodes(const Step& step) override;
+
+private:
+    void make_tries();
+    void complete();
+
+    bool divides_steps_;
+    StepState state_;
+    StepSystem system_;
+    PartStart start_;
+    PartEnd end_;
+    ShapeMatcher shape_matcher_;  // of bodies that have lost their shape, before they move
+    const SumLoads* loads_ = nullptr;
+    double size_ = 0.0;        // of the last step [s]
+    std::uint32_t tries_ = 2;  // to launch
+    gl::Readback clocks_;      // of steps that were launched: of one at most
 };
 
 }  // namespace gelatin::gpu
