@@ -347,7 +347,7 @@ inline constexpr Mutant kPullMutants[] = {
     {"damping_is_forgotten", "sim/drive/pull.glsl", "h + force.w", "h"},
     {"places_are_forgotten", "sim/drive/pull.glsl", "offset = spring.xyz - position", "offset = -position"},
     {"descent_has_no_damping", "sim/drive/pull.glsl", "force.w / h", "0.0"},
-    {"descent_has_no_curvature", "sim/drive/pull.glsl", "weight = target.w + stiffness", "weight = target.w"},
+    {"descent_has_no_curvature", "sim/drive/pull.glsl", "weight = target.w + hand.w", "weight = target.w"},
     {"descent_is_not_held", "sim/descent/start_descent.comp", "target = with_pull",
      "vec4 unused = with_pull"},
     {"forces_are_forgotten", "sim/drive/pull.glsl", "force.xyz + spring.w /", "spring.w /"},
