@@ -4,7 +4,7 @@
 #include <glm/vec4.hpp>
 
 /// The structs that C++ and GLSL share: the files of shaders/layouts/ compiled as C++.
-/// Made of 4-byte scalars and vec4 alone, so that std430 and C++ agree; tests/gpu asks the driver.
+/// Made of 4-byte scalars, doubles and vec4 alone, so that std430 and C++ agree; tests/gpu asks the driver.
 namespace gelatin::layouts {
 
 using uint = std::uint32_t;
@@ -28,6 +28,7 @@ using glm::vec4;
 #include "layouts/shape_match.glsl"
 #include "layouts/skin_point.glsl"
 #include "layouts/spring.glsl"
+#include "layouts/step_end.glsl"
 #include "layouts/step_rows.glsl"
 #include "layouts/step_state.glsl"
 #include "layouts/step_system.glsl"
@@ -40,6 +41,8 @@ static_assert(sizeof(AffineFit) == 80);
 static_assert(sizeof(Alarm) == 16);
 static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
+static_assert(sizeof(BodyChange) == 64);
+static_assert(sizeof(BodyEnergy) == 40);
 static_assert(sizeof(BodyInverse) == 144);
 static_assert(sizeof(BodyMotion) == 32);
 static_assert(sizeof(BodyPace) == 112);
@@ -100,6 +103,8 @@ namespace gelatin {
 using layouts::AffineFit;
 using layouts::Alarm;
 using layouts::ApproachSums;
+using layouts::BodyChange;
+using layouts::BodyEnergy;
 using layouts::BodyInverse;
 using layouts::BodyMotion;
 using layouts::BodyPace;

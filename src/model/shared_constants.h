@@ -18,6 +18,11 @@ namespace dispatch_slots {
 #include "layouts/dispatch_slots.glsl"
 }  // namespace dispatch_slots
 
+/// What the end of a part of an implicit step sums.
+namespace end_sums {
+#include "layouts/end_sums.glsl"
+}  // namespace end_sums
+
 /// How packed arrays and bit fields are laid out.
 namespace packing {
 #include "layouts/packing.glsl"

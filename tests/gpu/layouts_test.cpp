@@ -102,12 +102,22 @@ TEST_F(LayoutsTest, StepSystem) {
            FIELD(SolveState, is_over), FIELD(SolveState, unused)});
 }
 
+TEST_F(LayoutsTest, StepEnds) {
+    check("step_end.glsl", "BodyEnergy", sizeof(BodyEnergy),
+          {FIELD(BodyEnergy, elastic), FIELD(BodyEnergy, kinetic), FIELD(BodyEnergy, potential),
+           FIELD(BodyEnergy, contacts), FIELD(BodyEnergy, debt)});
+    check("step_end.glsl", "BodyChange", sizeof(BodyChange),
+          {FIELD(BodyChange, center), FIELD(BodyChange, velocity), FIELD(BodyChange, spin),
+           FIELD(BodyChange, action), FIELD(BodyChange, unused_0), FIELD(BodyChange, unused_1),
+           FIELD(BodyChange, unused_2)});
+}
+
 TEST_F(LayoutsTest, StepRows) {
     check("step_rows.glsl", "StepRow", sizeof(StepRow),
           {FIELD(StepRow, node_0), FIELD(StepRow, node_1), FIELD(StepRow, node_2), FIELD(StepRow, node_3),
            FIELD(StepRow, weights), FIELD(StepRow, normal), FIELD(StepRow, reach), FIELD(StepRow, stiffness),
            FIELD(StepRow, damping), FIELD(StepRow, friction), FIELD(StepRow, hold), FIELD(StepRow, object),
-           FIELD(StepRow, other), FIELD(StepRow, collider), FIELD(StepRow, ease)});
+           FIELD(StepRow, other), FIELD(StepRow, plane), FIELD(StepRow, ease)});
     check("step_rows.glsl", "StepTangent", sizeof(StepTangent),
           {FIELD(StepTangent, constant), FIELD(StepTangent, diagonal), FIELD(StepTangent, beside)});
     check("step_rows.glsl", "StepPair", sizeof(StepPair),

@@ -44,13 +44,17 @@ vec3 stick(StepRow row, vec3 s) {
     return row.hold.xyz + row.stiffness * (s - dot(row.normal.xyz, s) * row.normal.xyz);
 }
 
-// On the second side; the first has the reverse [N]. Coulomb: friction holds with no more than the limit.
-vec3 force_at(StepRow row, vec3 s, float limit) {
-    vec3 along = pressing(row, s) * row.normal.xyz;
-    if (!(limit > 0.0)) return along;
+// Coulomb: friction holds with no more than the limit [N].
+vec3 held_at(StepRow row, vec3 s, float limit) {
     vec3 q = stick(row, s);
     float size = length(q);
-    return along - (size > limit ? limit / size * q : q);
+    return (size > limit ? limit / size * q : q);
+}
+
+// On the second side; the first has the reverse [N].
+vec3 force_at(StepRow row, vec3 s, float limit) {
+    vec3 along = pressing(row, s) * row.normal.xyz;
+    return limit > 0.0 ? along - held_at(row, s, limit) : along;
 }
 
 // Of the tangent of the law. Along a slip friction does not change.
@@ -106,6 +110,20 @@ StepTangent chord_at(StepRow row, vec3 s, float limit) {
         t.beside += f.beside;
     }
     return t;
+}
+
+// What the law and friction hold, apart from dampers [J].
+float energy_at(StepRow row, vec3 s, float limit) {
+    float energy = 0.0, g = gap_at(row, s);
+    if (g < row.reach) {
+        float part = g / row.reach, inside = max(part, kLinearGap), beyond = (inside - part) * row.reach, depth = 1.0 - inside;
+        energy = row.stiffness * row.reach * row.reach *
+                 (inside < 0.5 ? 0.125 * (1.0 - 2.0 * log(2.0 * inside)) : 0.5 * depth * depth);
+        energy += beyond * (force_of(row, inside * row.reach) + 0.5 * beyond * slope_of(row, inside * row.reach));
+    }
+    if (!(limit > 0.0)) return energy;
+    vec3 q = held_at(row, s, limit);
+    return energy + dot(q, q) / (2.0 * row.stiffness);
 }
 
 uvec4 nodes_of(StepRow row) { return uvec4(row.node_0, row.node_1, row.node_2, row.node_3); }

@@ -83,13 +83,7 @@ ElasticSystem::ElasticSystem(const Model& model)
 
 // What never changes.
 void ElasticSystem::bind_buffers() const {
-    for (const gl::Program* program : {&tet_program_, &edge_program_}) {
-        program->bind("tets", tets_);
-        program->bind("tet_rests", tet_rests_);
-        program->bind("neo_hookean_numbers", neo_hookean_numbers_);
-        program->bind("neo_hookean_tets", neo_hookean_tets_);
-        if (stresses_) stresses_->bind(*program);
-    }
+    for (const gl::Program* program : {&tet_program_, &edge_program_}) bind_tets(*program);
     tet_program_.bind("TetRows", tet_rows_);
     tet_program_.set("tet_count", tet_count_);
     edge_program_.bind("Edges", edges_);
@@ -107,6 +101,14 @@ void ElasticSystem::bind_buffers() const {
     bind_edges(node_program_);
     product_program_.set("node_count", node_count_);
     bind_product(product_program_, displacement_texels_);
+}
+
+void ElasticSystem::bind_tets(const gl::Program& program) const {
+    program.bind("tets", tets_);
+    program.bind("tet_rests", tet_rests_);
+    program.bind("neo_hookean_numbers", neo_hookean_numbers_);
+    program.bind("neo_hookean_tets", neo_hookean_tets_);
+    if (stresses_) stresses_->bind(program);
 }
 
 void ElasticSystem::bind_edges(const gl::Program& program) const {

@@ -39,6 +39,8 @@ public:
     /// For programs that define PRODUCTS and include sim/implicit/half_edges.glsl. @param d what they
     /// multiply
     void bind_product(const gl::Program& program, const gl::BufferTexture& d) const;
+    /// For programs that include sim/implicit/tets.glsl.
+    void bind_tets(const gl::Program& program) const;
 
 private:
     void bind_buffers() const;

@@ -35,6 +35,8 @@ public:
     gl::Buffer<glm::vec4>& displacements() { return buffers_.displacements.values; }
     /// Energy by which each may miss its least [J], shape [objects].
     gl::Buffer<float>& enough() { return buffers_.enough.values; }
+    /// For programs of other stages of a part.
+    StepBuffers& buffers() { return buffers_; }
     int iterations = 10;  ///< of conjugate gradients for each linearisation, at most; twice without rows
 
     /// @param rows of objects; packing::kNone: a plane

@@ -31,6 +31,18 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kTurned, static_cast<float>(cpu::kTurned));
     EXPECT_EQ(gpu::kRigidForcing, static_cast<float>(cpu::kRigidForcing));
     EXPECT_EQ(gpu::kForcing, static_cast<float>(cpu::kForcing));
+    EXPECT_EQ(gpu::kRestingFall, static_cast<float>(cpu::kRestingFall));
+    EXPECT_EQ(gpu::kMostParts, static_cast<std::uint32_t>(cpu::kMostParts));
+    EXPECT_EQ(gpu::kLeftOfFast, static_cast<float>(cpu::kLeftOfFast));
+    EXPECT_EQ(gpu::kLeastOfReach, static_cast<float>(cpu::kLeastOfReach));
+    EXPECT_EQ(gpu::kLeastOfGap, static_cast<float>(cpu::kLeastOfGap));
+    EXPECT_EQ(gpu::kProjections, static_cast<std::uint32_t>(cpu::kProjections));
+    EXPECT_EQ(gpu::kEnergyRounding, static_cast<float>(cpu::kEnergyRounding));
+    EXPECT_EQ(gpu::kLeastEnergy, static_cast<float>(cpu::kLeastEnergy));
+    EXPECT_EQ(gpu::kSlackOfEnergy, static_cast<float>(cpu::kSlackOfEnergy));
+    EXPECT_EQ(gpu::kMostGain, static_cast<float>(cpu::kMostGain));
+    EXPECT_EQ(gpu::kLeftOfApproach, static_cast<float>(cpu::kLeftOfApproach));
+    EXPECT_EQ(gpu::kLongestImpact, static_cast<float>(cpu::kLongestImpact));
     EXPECT_EQ(gpu::kMostRounds, static_cast<std::uint32_t>(cpu::kMostRounds));
     EXPECT_EQ(gpu::kMostRigidIterations, static_cast<std::uint32_t>(cpu::kMostRigidIterations));
     EXPECT_EQ(gpu::kMostLinearisations, static_cast<std::uint32_t>(cpu::kMostLinearisations));

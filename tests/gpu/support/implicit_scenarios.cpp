@@ -15,6 +15,7 @@
 #include "cpu/implicit/step_system.h"
 #include "gpu/implicit/elastic_system.h"
 #include "gpu/implicit/step_system.h"
+#include "gpu/support/part_end_scenarios.h"
 #include "gpu/support/part_start_scenarios.h"
 #include "model/shared_constants.h"
 #include "support/contact_scenes.h"
@@ -438,6 +439,7 @@ void run_implicit_programs() {
     with_rows.iterations = 1;
     solve_on_gpu(with_rows);
     for (const ElasticCase& at : elastic_cases()) elastic_on_gpu(at.model);
+    run_end_programs();
     run_part_start();
 }
 

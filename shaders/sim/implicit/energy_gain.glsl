@@ -1,0 +1,84 @@
+// What bodies have gained by a part beyond what drives them, and their vibrations, for one work group of kLanes.
+// CPU twin: gelatin::cpu::EnergyAccount::measure.
+#include "include/global_index.glsl"
+#include "layouts/contact_tuning.glsl"
+#include "layouts/step_end.glsl"
+#include "layouts/step_state.glsl"
+#include "layouts/end_sums.glsl"
+#include "sim/implicit/rigid_part.glsl"
+
+uniform usamplerBuffer chunk_starts;  // of each object, and the end
+uniform uint object_count;
+layout(std430) readonly buffer EnergySums { double energy_sums[]; };  // by chunk
+layout(std430) readonly buffer PartSums { double part_sums[]; };      // by chunk
+
+uint first_chunk(uint o) { return texelFetch(chunk_starts, int(o)).x; }
+
+double energy_sum(uint o, uint k) {
+    double sum = 0.0LF;
+    for (uint c = first_chunk(o); c < first_chunk(o + 1u); ++c) sum += energy_sums[c * kEnergySums + k];
+    return sum;
+}
+double part_sum(uint o, uint k) {
+    double sum = 0.0LF;
+    for (uint c = first_chunk(o); c < first_chunk(o + 1u); ++c) sum += part_sums[c * kPartSums + k];
+    return sum;
+}
+
+void find_motion(uint o, out double motion[kMotionSums]) {
+    for (uint k = 0u; k < kMotionSums; ++k) motion[k] = energy_sum(o, k);
+}
+
+struct BodyGain {
+    BodyEnergy after;   // where the part ends [J]
+    double owed, dues;  // of what is owed more than the slack [J]
+    double vibrations;  // [J]
+    float gained;       // beyond vibrations, as a part of the energy then; infinite where something is not finite
+};
+
+BodyGain gain_of(uint o, BodyPace pace, BodyEnergy before, double motion[kMotionSums], bool is_free) {
+    BodyGain gain;
+    gain.after = BodyEnergy(energy_sum(o, kElastic), energy_sum(o, kKinetic), energy_sum(o, kPotential),
+                            part_sum(o, kContactsAtEnd), before.debt);
+    double moves = gain.after.elastic + gain.after.kinetic, motions = before.elastic + before.kinetic;
+    double slack = double(kLeastEnergy) + double(kEnergyRounding) * (moves + abs(gain.after.potential));
+    double gained = moves + gain.after.contacts - motions - part_sum(o, kWork);
+    dvec3 momentum = triple(motion, kMomentum);
+    if (pace.is_held != 0u) {
+        gained += gain.after.potential - before.potential;
+    } else {
+        // What nothing holds moves on as a whole, and falls, as it does.
+        double mass = double(pace.velocity.w), whole = 0.5LF * mass * dot(dvec3(pace.velocity.xyz), dvec3(pace.velocity.xyz));
+        gained -= 0.5LF * dot(momentum, momentum) / mass - whole;
+        motions = max(motions - whole, 0.0LF);
+    }
+    slack += double(kSlackOfEnergy) * motions;
+    gain.owed = before.debt + gained - before.contacts;
+    gain.dues = max(gain.owed - slack, 0.0LF);
+    gain.vibrations = gain.after.kinetic;
+    if (is_free) {
+        RigidPart rigid = rigid_part_of(motion);
+        dvec3 turns = triple(motion, kAngular) - cross(rigid.center, momentum);
+        gain.vibrations = max(gain.vibrations - 0.5LF * (dot(rigid.velocity, momentum) + dot(rigid.spin, turns)), 0.0LF);
+    }
+    double beyond = max(gained - part_sum(o, kContactsAtStart) - slack, 0.0LF) - gain.vibrations;
+    // Of a maximum with what is no number either may come out.
+    double all = gained + slack + gain.vibrations;
+    if (isnan(all) || isinf(all)) gain.gained = uintBitsToFloat(0x7F800000u);
+    else gain.gained = beyond > 0.0LF ? float(beyond / (beyond + motions)) : 0.0;
+    return gain;
+}
+
+shared float lane_gains[kLanes];
+
+// Of all invocations the most.
+float most_gained(float own) {
+    uint lane = gl_LocalInvocationID.x;
+    lane_gains[lane] = own;
+    for (uint half_ = kLanes / 2u; half_ > 0u; half_ /= 2u) {
+        barrier();
+        if (lane < half_) lane_gains[lane] = max(lane_gains[lane], lane_gains[lane + half_]);
+    }
+    barrier();
+    return lane_gains[0];
+}

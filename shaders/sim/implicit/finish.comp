@@ -1,0 +1,117 @@
+// Where nodes are when a part ends, and how fast: rigid motions of free bodies become true rotations, to first order bodies would
+// grow. What contacts with planes pass on; what acts on free bodies and how they move, by chunk. A work group a chunk.
+// CPU twins: gelatin::cpu::RigidLevel::rotate, TimeScheme::velocity, ContactRows::note. Parity: tests/gpu/implicit/part_end_test.cpp.
+const uint kSums = 25u;  // kFinishSums
+#include "layouts/step_state.glsl"
+#include "sim/drive/load_force.glsl"
+#include "sim/drive/pull.glsl"
+#include "sim/implicit/lane_sums.glsl"
+#include "sim/implicit/rows.glsl"
+#include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/time_scheme.glsl"
+layout(local_size_x = 64) in;
+
+uniform samplerBuffer velocities;     // where the part begins [m/s]; w: damping time [s]
+uniform samplerBuffer accelerations;  // a_0 [m/s^2]
+uniform samplerBuffer base_sums;      // ResidualSums of chunks, two texels each
+uniform samplerBuffer slips;          // s of rows [m]; w: limit of friction [N]
+uniform usamplerBuffer entry_starts;  // of each node, and the end
+uniform usamplerBuffer row_entries;   // 4 row + place of the node in it
+uniform uint collider_count;
+uniform uint body_node_count;
+layout(std430) readonly buffer Clock { StepClock clock[]; };
+layout(std430) readonly buffer Paces { BodyPace paces[]; };
+layout(std430) readonly buffer Rows { StepRow rows[]; };
+layout(std430) buffer Displacements { vec4 displacements[]; };  // d [m]
+layout(std430) writeonly buffer EndPositions { vec4 end_positions[]; };
+layout(std430) writeonly buffer EndVelocities { vec4 end_velocities[]; };
+layout(std430) writeonly buffer PlaneNotes { PlaneMemory notes[]; };
+layout(std430) writeonly buffer FinishSums { double finish_sums[]; };  // by chunk
+
+// Of free bodies.
+BodyMotion rigid_motion(uint object) {
+    vec3 force = vec3(0.0), moment = vec3(0.0);
+    uint end = texelFetch(chunk_starts, int(object) + 1).x;
+    for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) {
+        force += texelFetch(base_sums, 2 * int(c)).xyz;
+        moment += texelFetch(base_sums, 2 * int(c) + 1).xyz;
+    }
+    int first = 5 * int(object);
+    vec3 d = texelFetch(bodies, first + 1).xyz, b = texelFetch(bodies, first + 2).xyz;
+    mat3 inverse_inertia = mat3(d.x, b.z, b.y, b.z, d.y, b.x, b.y, b.x, d.z);
+    return BodyMotion(vec4(texelFetch(bodies, first).w * force, 0.0), vec4(inverse_inertia * moment, 0.0));
+}
+
+// What the displacement at r differs by if the rotation w is a true one. Of (sin t / t - 1) and (1 - cos t) / t^2 nothing cancels.
+vec3 by_true_rotation(BodyMotion motion, vec3 r, vec3 d) {
+    vec3 w = motion.rotation.xyz, turned = cross(w, r), rest = d - motion.displacement.xyz - turned;
+    float square = dot(w, w), angle = sqrt(square);
+    float half_sine = angle > 1e-4 ? 2.0 * sin(0.5 * angle) / angle : 1.0;
+    float lack = square < 0.25 ? -square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)))
+                               : sin(angle) / angle - 1.0;
+    float across = 0.5 * half_sine * half_sine;
+    return lack * turned + across * cross(w, turned) + (1.0 + lack) * cross(w, rest) + across * cross(w, cross(w, rest));
+}
+
+// Of contacts with planes.
+void note(uint n, StepRow row, vec3 s) {
+    float limit = row.friction * pressing(row, s);
+    vec3 hold = limit > 0.0 ? held_at(row, s, limit) : vec3(0.0);
+    notes[row.plane * body_node_count + n] = PlaneMemory(vec4(hold, limit), row.reach, row.ease, 0.0, 0.0);
+}
+
+// On a node, by all but elements and gravity [N].
+vec3 force_on(uint n, vec3 x, vec3 d) {
+    vec3 force = vec3(0.0);
+#ifdef LOADED
+    force += load_force(n);
+#endif
+    if (is_pulled != 0u) force += pull_force_at_end(n, x + d, x, clock[0].step);
+    uint end = texelFetch(entry_starts, int(n) + 1).x;
+    for (uint e = texelFetch(entry_starts, int(n)).x; e < end; ++e) {
+        uint entry = texelFetch(row_entries, int(e)).x;
+        StepRow row = rows[entry / 4u];
+        vec4 slip = texelFetch(slips, int(entry / 4u));
+        force += row.weights[entry % 4u] * force_at(row, slip.xyz, slip.w);
+        note(n, row, slip.xyz);
+    }
+    return force;
+}
+
+void main() {
+    uint c = group_index(), lane = gl_LocalInvocationID.x;
+    if (c >= chunk_count || clock[0].goes_on == 0u || clock[0].is_over != 0u) return;
+    uvec4 chunk = texelFetch(chunks, int(c));
+    bool is_free = texelFetch(bodies, 5 * int(chunk.x)).w > 0.0;
+    vec3 center = center_of(chunk.x);
+    BodyMotion rigid = rigid_motion(chunk.x);
+    Scheme scheme = scheme_of(clock[0].step, paces[chunk.x].past);
+    double motion[kMotionSums];
+    for (uint k = 0u; k < kMotionSums; ++k) motion[k] = 0.0LF;
+    dvec3 forces = dvec3(0.0LF), moments = dvec3(0.0LF), moved = dvec3(0.0LF);
+    for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
+        for (uint k = 0u; k < collider_count && n < body_node_count; ++k)
+            notes[k * body_node_count + n] = PlaneMemory(vec4(0.0), 0.0, 0.0, 0.0, 0.0);
+        vec4 x = texelFetch(positions, int(n)), v = texelFetch(velocities, int(n));
+        vec3 d = displacements[n].xyz, force = force_on(n, x.xyz, d);
+        if (is_free) d += by_true_rotation(rigid, x.xyz - center, d);
+        displacements[n] = vec4(d, 0.0);
+        vec3 end = x.xyz + d;
+        if (x.w > 0.0) v.xyz = velocity_by(scheme, v.xyz, texelFetch(accelerations, int(n)).xyz, d);
+        end_positions[n] = vec4(end, x.w);
+        end_velocities[n] = v;
+        if (!(x.w > 0.0)) continue;
+        double m = 1.0LF / double(x.w);
+        dvec3 r = dvec3(end) - dvec3(center);
+        add_node(m, r, dvec3(v.xyz), motion);
+        forces += dvec3(force);
+        moments += cross(r, dvec3(force));
+        moved += m * dvec3(d);
+    }
+    put_motion(motion);
+    put_sums(kForce, forces);
+    put_sums(kMoment, moments);
+    put_sums(kMoved, moved);
+    barrier();
+    for (uint k = lane; k < kSums; k += 64u) finish_sums[c * kSums + k] = sum_of_lanes(k);
+}

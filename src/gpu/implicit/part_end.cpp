@@ -1,0 +1,209 @@
+#include "gpu/implicit/part_end.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "model/shared_constants.h"
+
+namespace gelatin::gpu {
+namespace {
+
+gl::Defines load_defines(const Model& model) {
+    return model.loads.empty() ? gl::Defines{} : gl::Defines{"LOADED"};
+}
+
+gl::Program energies_program(const Model& model, const gl::Defines& more) {
+    gl::Defines defines = more;
+    for (const auto& some : {NeoHookeanBuffers::defines(model), VolumeTermBuffers::defines(model)})
+        defines.insert(defines.end(), some.begin(), some.end());
+    return gl::Program::compute("sim/implicit/energies.comp", defines);
+}
+
+// As shaders have them.
+std::vector<glm::uvec4> elements_of(const Model& model) {
+    std::vector<glm::uvec4> elements;
+    for (const ModelObject& o : model.objects)
+        elements.emplace_back(o.springs.first, o.springs.count, o.tets.first, o.tets.count);
+    return elements;
+}
+
+gl::Buffer<double> zeros(std::size_t count) {
+    return gl::Buffer<double>(std::vector<double>(std::max<std::size_t>(count, 1)));
+}
+
+}  // namespace
+
+PartEnd::Programs::Programs(const Model& model)
+    : finish_sums(gl::Program::compute("sim/implicit/finish_sums.comp")),
+      finish(gl::Program::compute("sim/implicit/finish.comp", load_defines(model))),
+      keep(energies_program(model, {"KEEP"})),
+      measure(gl::Program::compute("sim/implicit/measure_part.comp", load_defines(model))),
+      judge(gl::Program::compute("sim/implicit/judge.comp")),
+      guard(gl::Program::compute("sim/implicit/guard_planes.comp", ModelBuffers::collider_defines(model))),
+      measure_guarded(energies_program(model, {"GUARDED"})),
+      judge_guarded(gl::Program::compute("sim/implicit/judge.comp", {"GUARDED"})),
+      stop(energies_program(model, {"STOP"})),
+      settle(gl::Program::compute("sim/implicit/settle.comp")),
+      commit(gl::Program::compute("sim/implicit/commit.comp")),
+      find_energies(energies_program(model, {})),
+      begin_energies(gl::Program::compute("sim/implicit/begin_energies.comp")) {}
+
+std::vector<const gl::Program*> PartEnd::Programs::all() const {
+    return {&finish_sums,   &finish, &keep,   &measure, &judge,         &guard,         &measure_guarded,
+            &judge_guarded, &stop,   &settle, &commit,  &find_energies, &begin_energies};
+}
+
+PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system)
+    : state_(&state),
+      system_(&system),
+      chunk_count_(system.buffers().chunk_count),
+      object_count_(system.buffers().object_count),
+      masses_(model.masses),
+      programs_(model),
+      springs_(model.springs, gl::TexelFormat::rgba32ui),
+      elements_(elements_of(model), gl::TexelFormat::rgba32ui),
+      finish_sums_(zeros(end_sums::kFinishSums * chunk_count_)),
+      energy_sums_(zeros(end_sums::kEnergySums * chunk_count_)),
+      part_sums_(zeros(end_sums::kPartSums * chunk_count_)),
+      guard_sums_(zeros(end_sums::kGuardSums * chunk_count_)),
+      pressed_sums_(zeros(end_sums::kPressedSums * chunk_count_ * model.colliders.size())),
+      meetings_(zeros(end_sums::kMeeting * object_count_ * model.colliders.size())),
+      energies_(std::vector<BodyEnergy>(object_count_)),
+      changes_(std::vector<BodyChange>(object_count_)) {
+    for (const ModelObject& object : model.objects) nodes_.push_back(object.nodes);
+    bind_buffers(model);
+    bind_nodes();
+}
+
+// What never changes.
+void PartEnd::bind_buffers(const Model& model) const {
+    const auto gravity = static_cast<double>(glm::length(model.gravity));
+    const double slow = static_cast<double>(contact_tuning::kRestingFall) * gravity;
+    for (const gl::Program* program : programs_.all()) {
+        state_->bind(*program);
+        system_->buffers().bind(*program);
+        const auto bind = [&](const char* name, const auto& buffer) {
+            if (program->declares(name)) program->bind(name, buffer);
+        };
+        bind("FinishSums", finish_sums_);
+        bind("EnergySums", energy_sums_);
+        bind("PartSums", part_sums_);
+        bind("GuardSums", guard_sums_);
+        bind("PressedSums", pressed_sums_);
+        bind("Meetings", meetings_);
+        bind("BodyEnergies", energies_);
+        bind("BodyChanges", changes_);
+        bind("springs", springs_);
+        bind("elements", elements_);
+        program->set("gravity", model.gravity);
+        program->set("slow", static_cast<float>(slow));
+        program->set("resting_speed", static_cast<float>(2.0 * slow));
+        program->set("collider_count", static_cast<std::uint32_t>(model.colliders.size()));
+        program->set("body_node_count", model.body_node_count());
+    }
+    const Programs& p = programs_;
+    for (const gl::Program* program : {&p.keep, &p.measure_guarded, &p.stop, &p.find_energies})
+        system_->elastic.bind_tets(*program);
+    p.measure.bind("ElasticForces", system_->elastic.forces());
+    system_->elastic.bind_product(p.measure, system_->buffers().displacements.texels);
+}
+
+void PartEnd::bind_nodes() const {
+    const NodeBuffers &from = state_->from, &to = state_->to;
+    const Programs& p = programs_;
+    for (const gl::Program* program : {&p.finish_sums, &p.finish, &p.measure, &p.guard})
+        program->bind("positions", from.position_texels);
+    p.finish.bind("velocities", from.velocity_texels);
+    p.measure.bind("velocities", to.velocity_texels);
+    for (const gl::Program* program : {&p.keep, &p.measure_guarded, &p.stop, &p.find_energies}) {
+        const NodeBuffers& at = program == &p.find_energies ? from : to;
+        program->bind("positions", at.position_texels);
+        program->bind("velocities", at.velocity_texels);
+        program->bind("start_positions", from.position_texels);
+    }
+    for (const gl::Program* program : {&p.keep, &p.stop, &p.finish})
+        program->bind("EndVelocities", to.velocities);
+    for (const gl::Program* program : {&p.finish, &p.guard}) program->bind("EndPositions", to.positions);
+    p.commit.bind("Positions", from.positions);
+    p.commit.bind("Velocities", from.velocities);
+    p.commit.bind("end_positions", to.position_texels);
+    p.commit.bind("end_velocities", to.velocity_texels);
+}
+
+void PartEnd::run(const gl::Program& program, std::uint32_t groups) const {
+    program.dispatch_groups(groups);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+}
+
+void PartEnd::begin_step(const ModelBuffers& model) const {
+    model.volume_term.bind(programs_.find_energies);
+    run(programs_.find_energies, chunk_count_);
+    run(programs_.begin_energies, (object_count_ + 63) / 64);
+}
+
+void PartEnd::run(const ModelBuffers& model, const SumLoads* loads) const {
+    const Programs& p = programs_;
+    for (const gl::Program* program : {&p.finish, &p.measure}) {
+        if (loads != nullptr) loads->bind(*program);
+        model.pulls.bind(*program);
+    }
+    for (const gl::Program* program : {&p.keep, &p.measure_guarded, &p.stop})
+        model.volume_term.bind(*program);
+    model.bind_colliders(p.guard);
+    for (const gl::Program* program : {&p.measure, &p.settle}) program->bind("colliders", model.colliders);
+    for (const gl::Program* program : {&p.finish_sums, &p.finish, &p.keep, &p.measure})
+        run(*program, chunk_count_);
+    run(p.judge, 1);
+    for (const gl::Program* program : {&p.guard, &p.measure_guarded}) run(*program, chunk_count_);
+    run(p.judge_guarded, 1);
+    run(p.stop, chunk_count_);
+    run(p.settle, 1);
+    run(p.commit, chunk_count_);
+}
+
+void PartEnd::forget() {
+    gl::barrier(gl::Barrier::buffer_update);
+    const std::size_t planes = state_->plane_memories.size();
+    state_->plane_memories.upload(std::vector<PlaneMemory>(planes));
+    state_->clock.upload(std::vector<StepClock>(1));
+    state_->paces.values.upload(std::vector<BodyPace>(object_count_));
+    energies_.upload(std::vector<BodyEnergy>(object_count_));
+    meetings_.upload(std::vector<double>(meetings_.size()));
+}
+
+// Accelerations are Euler's.
+void PartEnd::go_on(std::span<const glm::vec4> positions, std::span<const glm::vec4> velocities,
+                    std::span<const glm::vec4> earlier_velocities, double step) {
+    std::vector<glm::vec4> accelerations;
+    for (std::size_t n = 0; n < velocities.size(); ++n)
+        accelerations.emplace_back((glm::dvec3(velocities[n]) - glm::dvec3(earlier_velocities[n])) / step,
+                                   0.0);
+    std::vector<BodyPace> paces(object_count_);
+    for (std::size_t o = 0; o < paces.size(); ++o) {
+        glm::dvec3 middle(0.0), momentum(0.0), angular(0.0);
+        double mass = 0.0;
+        for (std::uint32_t n = nodes_[o].first; n < nodes_[o].end(); ++n) {
+            const bool is_held = positions[n].w == 0.0f;
+            paces[o].held_count += is_held ? 1 : 0;
+            const double m =
+                is_held ? static_cast<double>(masses_[n]) : 1.0 / static_cast<double>(positions[n].w);
+            const glm::dvec3 r(positions[n]);
+            const glm::dvec3 change = (glm::dvec3(velocities[n]) - glm::dvec3(earlier_velocities[n])) / step;
+            mass += m;
+            middle += m * r;
+            momentum += m * change;
+            angular += m * glm::cross(r, change);
+        }
+        paces[o].force = glm::vec4(momentum, 0.0);
+        if (mass > 0.0) paces[o].moment = glm::vec4(angular - glm::cross(middle, momentum) / mass, 0.0);
+    }
+    forget();
+    state_->accelerations.values.upload(accelerations);
+    state_->paces.values.upload(paces);
+    StepClock clock{};
+    clock.last_step = static_cast<float>(step);
+    state_->clock.upload(std::vector<StepClock>{clock});
+}
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gpu/drive/sum_loads.h"
+#include "gpu/implicit/step_state.h"
+#include "gpu/implicit/step_system.h"
+#include "gpu/model_buffers.h"
+#include "model/model.h"
+
+namespace gelatin::gpu {
+
+/// The end of a try to make a part of an implicit step, after its system is solved: where nodes are then, and
+/// how fast; whether they have gained energy, and so whether the part is made, or has to be made again, which
+/// the next try does; colliders, what is owed, and impacts. Bodies touch nothing but colliders. All decisions
+/// are made on the device (StepClock). CPU twins: cpu::ImplicitStep::run, EnergyAccount, Paces, Guard,
+/// Restitution, TimeScheme.
+///
+/// What it needs of the state where a try is solved: `from`, accelerations; of the clock size, left, step,
+/// has_past, goes_on and is_over; of paces is_held, past, velocity, momentum and angular. A part that is made
+/// ends in `from`.
+class PartEnd {
+public:
+    /// @param state, system have to live as long
+    PartEnd(const Model& model, StepState& state, StepSystem& system);
+
+    /// A step begins: finds energies of bodies in `from`, which may have been set from outside.
+    void begin_step(const ModelBuffers& model) const;
+    /// After a solve. @param loads null: the model has none @pre they are those that the solve had
+    /// Ends with the barrier for whoever reads the state.
+    void run(const ModelBuffers& model, const SumLoads* loads) const;
+
+    /// Nodes were set from outside.
+    void forget();
+    /// The same, but the next step goes on from these nodes and the velocities a step before, whose length
+    /// was so much [s].
+    void go_on(std::span<const glm::vec4> positions, std::span<const glm::vec4> velocities,
+               std::span<const glm::vec4> earlier_velocities, double step);
+
+    /// By object; and by collider and object, end_sums::kMeeting each.
+    const gl::Buffer<BodyEnergy>& energies() const { return energies_; }
+    const gl::Buffer<double>& meetings() const { return meetings_; }
+
+private:
+    struct Programs {
+        explicit Programs(const Model& model);
+        std::vector<const gl::Program*> all() const;
+        gl::Program finish_sums, finish, keep, measure, judge, guard, measure_guarded, judge_guarded, stop,
+            settle, commit, find_energies, begin_energies;
+    };
+    void bind_buffers(const Model& model) const;
+    void bind_nodes() const;
+    void run(const gl::Program& program, std::uint32_t groups) const;
+
+    StepState* state_;
+    StepSystem* system_;
+    std::uint32_t chunk_count_, object_count_;
+    std::vector<Range> nodes_;   // of objects
+    std::vector<float> masses_;  // of nodes
+    Programs programs_;
+    gl::TexelTable<Spring> springs_;
+    gl::TexelTable<glm::uvec4> elements_;
+    gl::Buffer<double> finish_sums_, energy_sums_, part_sums_, guard_sums_;  // by chunk
+    gl::Buffer<double> pressed_sums_, meetings_;                             // by collider
+    gl::Buffer<BodyEnergy> energies_;
+    gl::Buffer<BodyChange> changes_;
+};
+
+}  // namespace gelatin::gpu
