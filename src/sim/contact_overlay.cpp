@@ -51,7 +51,7 @@ ContactOverlay::ContactOverlay(std::shared_ptr<const Model> model)
       force_range_(kLeastForce),
       pressure_range_(kLeastPressure) {}
 
-void ContactOverlay::read(const Solver& solver) {
+void ContactOverlay::read(Solver& solver) {
     const ContactForces found = solver.contact_forces();
     if (found.normal.empty() && !std::exchange(is_reported_, true))
         log_warning("overlays of contact forces need an implicit solver on the CPU: none is shown");

@@ -20,7 +20,7 @@ public:
     explicit ContactOverlay(std::shared_ptr<const Model> model);
 
     /// Reads the solver's present forces, for the functions below.
-    void read(const Solver& solver);
+    void read(Solver& solver);
 
     /// Arrows of all forces; empty: there are none.
     std::optional<ArrowView> arrows(const ForceArrows& shown);

@@ -91,7 +91,7 @@ OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bo
 }
 
 OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bodies, unsigned boxes,
-                                  unsigned velocities, const Solver& solver) {
+                                  unsigned velocities, Solver& solver) {
     OverlayView view;
     view.node_positions = bodies.overlay.node_positions;
     view.node_count = bodies.overlay.node_count;
@@ -179,7 +179,7 @@ void OverlaySource::view_arrows(float time, unsigned velocities, OverlayView& vi
                             .scale = time};
 }
 
-void OverlaySource::view_contacts(const Overlays& overlays, const Solver& solver, OverlayView& view) {
+void OverlaySource::view_contacts(const Overlays& overlays, Solver& solver, OverlayView& view) {
     if (!contacts_) contacts_.emplace(model_);
     contacts_->read(solver);
     if (overlays.contact_forces) view.contact_forces = contacts_->arrows(*overlays.contact_forces);

@@ -28,14 +28,14 @@ public:
 
 private:
     OverlayView update(const Overlays& overlays, const RenderView& bodies, unsigned boxes,
-                       unsigned velocities, const Solver& solver);
+                       unsigned velocities, Solver& solver);
     void view_boxes(const Overlays& overlays, OverlayView& view);
     void view_objects(OverlayView& view);
     void view_springs(float full_strain, OverlayView& view);
     void view_cut(const CutPlane& cut, OverlayView& view);
     void view_colors(const ColorMap& map, unsigned velocities, OverlayView& view);
     void view_arrows(float time, unsigned velocities, OverlayView& view);
-    void view_contacts(const Overlays& overlays, const Solver& solver, OverlayView& view);
+    void view_contacts(const Overlays& overlays, Solver& solver, OverlayView& view);
     void make_marks();
 
     std::shared_ptr<const Model> model_;

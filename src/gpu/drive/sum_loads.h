@@ -23,7 +23,10 @@ public:
     /// Pressures act on faces as they lie in `nodes`. Ends with the barrier that the next pass needs.
     void run(const NodeBuffers& nodes) const;
 
-    /// For programs that include sim/drive/load_force.glsl, with LOADED.
+    /// For programs that include sim/drive/load_force.glsl.
+    static gl::Defines defines(const Model& model) {
+        return model.loads.empty() ? gl::Defines{} : gl::Defines{"LOADED"};
+    }
     void bind(const gl::Program& program) const { program.bind("load_forces", force_texels_); }
 
     const gl::Buffer<glm::vec4>& forces() const { return forces_; }  ///< [N], shape [nodes]

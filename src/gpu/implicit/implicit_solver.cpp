@@ -77,12 +77,12 @@ void ImplicitSolver::make_tries() {
     StageTimer* const timer = timer_.for_parts();
     for (std::uint32_t k = 0; k < tries_; ++k) {
         if (loads_ != nullptr) loads_->run(state_.from);
-        start_.run(buffers_, loads_);
+        start_.run(buffers_, loads_, timer);
         {
             const TimedStage part(timer, "advance_nodes.solve");
             system_.solve(state_.from);
         }
-        end_.run(buffers_, loads_);
+        end_.run(buffers_, loads_, timer);
     }
     copy_nodes(state_.from, current_);
     clocks_.begin(state_.clock.id(), sizeof(StepClock));

@@ -9,10 +9,6 @@
 namespace gelatin::gpu {
 namespace {
 
-gl::Defines load_defines(const Model& model) {
-    return model.loads.empty() ? gl::Defines{} : gl::Defines{"LOADED"};
-}
-
 gl::Program energies_program(const Model& model, const gl::Defines& more) {
     gl::Defines defines = more;
     for (const auto& some : {NeoHookeanBuffers::defines(model), VolumeTermBuffers::defines(model)})
@@ -36,9 +32,9 @@ gl::Buffer<double> zeros(std::size_t count) {
 
 PartEnd::Programs::Programs(const Model& model)
     : finish_sums(gl::Program::compute("sim/implicit/finish_sums.comp")),
-      finish(gl::Program::compute("sim/implicit/finish.comp", load_defines(model))),
+      finish(gl::Program::compute("sim/implicit/finish.comp", SumLoads::defines(model))),
       keep(energies_program(model, {"KEEP"})),
-      measure(gl::Program::compute("sim/implicit/measure_part.comp", load_defines(model))),
+      measure(gl::Program::compute("sim/implicit/measure_part.comp", SumLoads::defines(model))),
       judge(gl::Program::compute("sim/implicit/judge.comp")),
       guard(gl::Program::compute("sim/implicit/guard_planes.comp", ModelBuffers::collider_defines(model))),
       measure_guarded(energies_program(model, {"GUARDED"})),
@@ -142,7 +138,7 @@ void PartEnd::begin_step(const ModelBuffers& model) const {
     run(programs_.begin_energies, (object_count_ + 63) / 64);
 }
 
-void PartEnd::run(const ModelBuffers& model, const SumLoads* loads) const {
+void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
     const Programs& p = programs_;
     for (const gl::Program* program : {&p.finish, &p.measure}) {
         if (loads != nullptr) loads->bind(*program);
@@ -152,9 +148,13 @@ void PartEnd::run(const ModelBuffers& model, const SumLoads* loads) const {
         model.volume_term.bind(*program);
     model.bind_colliders(p.guard);
     for (const gl::Program* program : {&p.measure, &p.settle}) program->bind("colliders", model.colliders);
-    for (const gl::Program* program : {&p.finish_sums, &p.finish, &p.keep, &p.measure})
-        run(*program, chunk_count_);
-    run(p.judge, 1);
+    {
+        const TimedStage part(timer, "advance_nodes.finish");
+        for (const gl::Program* program : {&p.finish_sums, &p.finish, &p.keep, &p.measure})
+            run(*program, chunk_count_);
+        run(p.judge, 1);
+    }
+    const TimedStage part(timer, "advance_nodes.guard");
     for (const gl::Program* program : {&p.guard, &p.measure_guarded}) run(*program, chunk_count_);
     run(p.judge_guarded, 1);
     run(p.stop, chunk_count_);

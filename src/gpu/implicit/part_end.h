@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/stage_timer.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/drive/sum_loads.h"
@@ -32,7 +33,8 @@ public:
     void begin_step(const ModelBuffers& model) const;
     /// After a solve. @param loads null: the model has none @pre they are those that the solve had
     /// Ends with the barrier for whoever reads the state.
-    void run(const ModelBuffers& model, const SumLoads* loads) const;
+    /// @param timer as of PartStart::run
+    void run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
 
     /// Nodes were set from outside.
     void forget();

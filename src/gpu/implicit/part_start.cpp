@@ -12,19 +12,15 @@ std::vector<float> wave_times_of(const Model& model) {
     return {times.begin(), times.end()};
 }
 
-gl::Defines load_defines(const Model& model) {
-    return model.loads.empty() ? gl::Defines{} : gl::Defines{"LOADED"};
-}
-
 }  // namespace
 
 PartStart::Programs::Programs(const Model& model, bool rows)
     : begin_step(gl::Program::compute("sim/implicit/begin_step.comp")),
       begin_try(gl::Program::compute("sim/implicit/begin_try.comp")),
-      predict(gl::Program::compute("sim/implicit/predict.comp", load_defines(model))),
+      predict(gl::Program::compute("sim/implicit/predict.comp", SumLoads::defines(model))),
       begin_bodies(gl::Program::compute("sim/implicit/begin_bodies.comp")),
       place_rows(gl::Program::compute("sim/implicit/place_rows.comp")),
-      find_targets(gl::Program::compute("sim/implicit/find_targets.comp", load_defines(model))),
+      find_targets(gl::Program::compute("sim/implicit/find_targets.comp", SumLoads::defines(model))),
       find_enough(gl::Program::compute("sim/implicit/find_enough.comp")),
       sum_motions(gl::Program::compute("sim/implicit/sum_motions.comp")),
       follow_rotation(gl::Program::compute("sim/implicit/follow_rotation.comp")),
@@ -98,7 +94,7 @@ void PartStart::begin_step(double size, bool divides) const {
     run(programs_.begin_step, (node_count_ + 63) / 64);
 }
 
-void PartStart::run(const ModelBuffers& model, const SumLoads* loads) const {
+void PartStart::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
     assert((loads != nullptr) == has_loads_);
     const Programs& p = programs_;
     for (const gl::Program* program : {&p.predict, &p.find_targets}) {
@@ -107,6 +103,21 @@ void PartStart::run(const ModelBuffers& model, const SumLoads* loads) const {
     }
     model.pulls.bind(p.find_targets);
     p.begin_bodies.set("has_forces", loads != nullptr || model.pulls.is_acting() ? 1u : 0u);
+    {
+        const TimedStage part(timer, "advance_nodes.detect");
+        find_rows(model);
+    }
+    const TimedStage part(timer, "advance_nodes.linearise");
+    run(p.find_targets, chunk_count_);
+    run(p.find_enough, body_count_);
+    system_.elastic.linearise(model, state_.from, damping_times_.texels, state_.clock);
+    system_.begin_bodies(state_.from);
+    run(p.sum_motions, chunk_count_);
+    run(p.follow_rotation, chunk_count_);
+}
+
+void PartStart::find_rows(const ModelBuffers& model) const {
+    const Programs& p = programs_;
     run(p.begin_try, 1);
     run(p.predict, chunk_count_);
     if (p.has_rows) {
@@ -115,16 +126,9 @@ void PartStart::run(const ModelBuffers& model, const SumLoads* loads) const {
     }
     run(p.begin_bodies, body_count_);
     run(p.place_rows, 1);
-    if (p.has_rows) {
-        model.bind_colliders(p.make_rows);
-        run(p.make_rows, chunk_count_);
-    }
-    run(p.find_targets, chunk_count_);
-    run(p.find_enough, body_count_);
-    system_.elastic.linearise(model, state_.from, damping_times_.texels, state_.clock);
-    system_.begin_bodies(state_.from);
-    run(p.sum_motions, chunk_count_);
-    run(p.follow_rotation, chunk_count_);
+    if (!p.has_rows) return;
+    model.bind_colliders(p.make_rows);
+    run(p.make_rows, chunk_count_);
 }
 
 }  // namespace gelatin::gpu

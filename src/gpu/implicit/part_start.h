@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/stage_timer.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/drive/sum_loads.h"
@@ -27,7 +28,8 @@ public:
     void begin_step(double size, bool divides) const;
     /// A try, up to where StepSystem::solve(state.from) goes on. Ends with the barrier for it.
     /// @param loads that were summed where the part begins; null if the model has none
-    void run(const ModelBuffers& model, const SumLoads* loads) const;
+    /// @param timer of the parts of the step, with the names that cpu::ImplicitStep has; null: none
+    void run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
 
 private:
     struct Programs {
@@ -38,6 +40,7 @@ private:
         bool has_rows;
     };
     void bind_buffers() const;
+    void find_rows(const ModelBuffers& model) const;
     void run(const gl::Program& program, std::uint32_t groups) const;
 
     const StepState& state_;

@@ -49,8 +49,6 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kFrame, static_cast<float>(cpu::kFrame));
     EXPECT_EQ(gpu::kRestingTime, static_cast<float>(cpu::kRestingTime));
     EXPECT_EQ((std::array{gpu::kPartsOfMoving, gpu::kPartsOfCalm, gpu::kPartsOfStill}), cpu::kParts);
-    EXPECT_EQ(gpu::kMostParts, static_cast<std::uint32_t>(cpu::kMostParts));
-    EXPECT_EQ(gpu::kLeftOfFast, static_cast<float>(cpu::kLeftOfFast));
     EXPECT_EQ(gpu::kLeastReach, static_cast<float>(cpu::kLeastReach));
     EXPECT_EQ(gpu::kEasing, static_cast<float>(cpu::kEasing));
     EXPECT_EQ(gpu::kPushing, static_cast<float>(cpu::kPushing));
