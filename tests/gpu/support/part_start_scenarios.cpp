@@ -346,7 +346,7 @@ std::shared_ptr<const Model> make_many_bodies() {
     for (int k = 0; k < 270; ++k) {
         const bool is_small = k % 3 == 0;
         blocks.push_back({.place = {0.2 * k, is_small ? 0.03 : 0.001, 0.0},
-                          .velocity = {0.0, -0.1, 0.0},
+                          .velocity = {0.0, k % 2 == 0 ? -0.6 : 0.6, 0.0},
                           .cells = {1, 1, 1},
                           .size = glm::dvec3(is_small ? 0.05 : 0.1)});
     }
