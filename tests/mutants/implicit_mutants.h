@@ -142,6 +142,8 @@ inline constexpr Mutant kPartStartMutants[] = {
     {"a_part_is_as_long_as_the_step", "sim/implicit/part_length.glsl", "now.size / float(max(parts, 1u))",
      "now.size"},
     {"tries_begin_anew", "sim/implicit/begin_try.comp", "now.begun == now.made", "true"},
+    {"parts_are_as_long_as_what_is_left", "sim/implicit/begin_try.comp", "min(now.left, now.longest)",
+     "now.left"},
     {"a_step_never_ends", "sim/implicit/begin_try.comp", "now.is_over == 0u ? 1u : 0u", "1u"},
     {"targets_have_no_past", "sim/implicit/find_targets.comp", "if (has_past) d += 0.25 * (1.0 - kAlpha)",
      "if (has_past) d += 0.0"},

@@ -3,5 +3,5 @@
 
 layout(std430) readonly buffer Clock { StepClock clock[]; };
 
-// Whether the try that this kernel is a part of does. What is left of one that is given up does nothing.
+// Whether the try does. The kernels of one that is given up, and those after the end of the step, do nothing.
 bool goes_on() { return clock[0].goes_on != 0u; }

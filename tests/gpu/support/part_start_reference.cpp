@@ -64,6 +64,12 @@ public:
     StartResult run() {
         const auto size = static_cast<double>(case_.size);
         double step = size;
+        if (case_.left > 0.0f) {
+            step = 0.6 * static_cast<double>(case_.left);
+            for (std::uint32_t n = 0; n < model_.node_count(); ++n)
+                if (previous_.positions[n].w == 0.0)
+                    previous_.velocities[n] *= size / static_cast<double>(case_.left);
+        }
         StartResult result;
         StepClock& clock = result.clock;
         bool damps = case_.damps;

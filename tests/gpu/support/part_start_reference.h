@@ -17,6 +17,7 @@ namespace gelatin::test {
 struct StartCase {
     std::shared_ptr<const Model> model = nullptr;
     float size = 1.0f / 240.0f;  ///< of the step [s]
+    float left = 0.0f;           ///< of it, of which a part may be as long as 0.6; 0: no part is made yet [s]
     bool divides = false;
     float last_step = 0.0f;                  ///< [s]
     bool has_memory = false, damps = false;  ///< contacts of the part before
