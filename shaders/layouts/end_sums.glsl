@@ -28,7 +28,7 @@ const uint kWork = 2u;
 const uint kPressing = 3u;
 const uint kApproach = 4u;
 const uint kSquares = 5u;
-const uint kFastest = 6u;
+const uint kGreatestSpeed = 6u;
 const uint kPartSums = 7u;
 // Of what presses a body on a collider with restitution: force, force n, its moment, force times the arm.
 const uint kPressed = 0u;

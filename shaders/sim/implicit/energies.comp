@@ -34,6 +34,8 @@ layout(std430) buffer EndVelocities { vec4 end_velocities[]; };
 
 vec4 velocity_at(uint n) { return end_velocities[n]; }
 #else
+uniform samplerBuffer velocities;  // [m/s]
+
 vec4 velocity_at(uint n) { return texelFetch(velocities, int(n)); }
 #endif
 

@@ -74,7 +74,7 @@ void main() {
         vec3 v = texelFetch(velocities, int(n)).xyz, moves = at_node(rigid, center, n), beside = v - moves;
         sums[kWork] += double(work_on(n, x, texelFetch(displacements, int(n)).xyz));
         if (x.w > 0.0) sums[kSquares] += double(dot(beside, beside) / x.w);
-        sums[kFastest] = max(sums[kFastest], double(length(v)));
+        sums[kGreatestSpeed] = max(sums[kGreatestSpeed], double(length(v)));
         uint end = texelFetch(entry_starts, int(n) + 1).x;
         for (uint e = texelFetch(entry_starts, int(n)).x; e < end; ++e) {
             uint r = texelFetch(row_entries, int(e)).x / 4u;
@@ -89,8 +89,8 @@ void main() {
     }
     for (uint k = 0u; k < kPartSums; ++k) put_sum(k, sums[k]);
     barrier();
-    if (lane < kFastest) part_sums[c * kPartSums + lane] = sum_of_lanes(lane);
-    if (lane == kFastest) part_sums[c * kPartSums + lane] = most_of_lanes(lane);
+    if (lane < kGreatestSpeed) part_sums[c * kPartSums + lane] = sum_of_lanes(lane);
+    if (lane == kGreatestSpeed) part_sums[c * kPartSums + lane] = most_of_lanes(lane);
     for (uint p = 0u; p < collider_count; ++p) {
         if (!(texelFetch(colliders, 4 * int(p) + 3).z > 0.0)) continue;
         float pressed = 0.0;
