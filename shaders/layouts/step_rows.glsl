@@ -14,8 +14,8 @@ struct StepRow {         // 96 bytes
     vec4  hold;          // of friction, when the step begins [N]; w: most that friction holds with [N]
     uint  object;        // of the sides; in a table: the number of objects for what rigid motions do not move
     uint  other;
-    uint  collider;      // where the first side is a plane
-    float ease;          // of the gap what a plane has not yet pushed out [m]
+    uint  plane;         // the collider, where it is the first side
+    float ease;          // of the gap: what a plane has not yet pushed out [m]
 };
 // The force of a row to first order: constant - stiffness s.
 struct StepTangent {     // 48 bytes

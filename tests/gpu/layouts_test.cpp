@@ -118,7 +118,7 @@ TEST_F(LayoutsTest, StepRows) {
           {FIELD(StepRow, node_0), FIELD(StepRow, node_1), FIELD(StepRow, node_2), FIELD(StepRow, node_3),
            FIELD(StepRow, weights), FIELD(StepRow, normal), FIELD(StepRow, reach), FIELD(StepRow, stiffness),
            FIELD(StepRow, damping), FIELD(StepRow, friction), FIELD(StepRow, hold), FIELD(StepRow, object),
-           FIELD(StepRow, other), FIELD(StepRow, collider), FIELD(StepRow, ease)});
+           FIELD(StepRow, other), FIELD(StepRow, plane), FIELD(StepRow, ease)});
     check("step_rows.glsl", "StepTangent", sizeof(StepTangent),
           {FIELD(StepTangent, constant), FIELD(StepTangent, diagonal), FIELD(StepTangent, beside)});
     check("step_rows.glsl", "StepPair", sizeof(StepPair),

@@ -51,18 +51,21 @@ vec4 distance_to_capsule(uint c, vec3 p) {
     return distance_from_center(p - center.xyz - along * axis, center.w);
 }
 
-// Of any kind.
+// Of collider c, of any kind.
 vec4 distance_to_collider(uint c, vec3 p) {
+#if (COLLIDER_KINDS & 1) != 0
+    if (c < collider_ends.x) return distance_to_plane(c, p);
+#endif
 #if (COLLIDER_KINDS & 2) != 0
-    if (c >= collider_ends.x && c < collider_ends.y) return distance_to_rotated_box(c, p);
+    if (c < collider_ends.y) return distance_to_rotated_box(c, p);
 #endif
 #if (COLLIDER_KINDS & 4) != 0
-    if (c >= collider_ends.y && c < collider_ends.z) return distance_to_sphere(c, p);
+    if (c < collider_ends.z) return distance_to_sphere(c, p);
 #endif
 #if (COLLIDER_KINDS & 8) != 0
-    if (c >= collider_ends.z) return distance_to_capsule(c, p);
+    if (c < collider_ends.w) return distance_to_capsule(c, p);
 #endif
-    return distance_to_plane(c, p);
+    return vec4(0.0, 1.0, 0.0, 1e30);
 }
 
 // The velocity after a node has hit a surface. The normal part is reversed and scaled by the restitution. The tangential part

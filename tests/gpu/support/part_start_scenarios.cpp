@@ -56,7 +56,7 @@ ContactRow<double> converted_row(const StepRow& row) {
     result.friction = static_cast<double>(row.friction);
     result.hold = glm::dvec3(row.hold);
     result.limit = static_cast<double>(row.hold.w);
-    result.key = key_of_contact(row.collider, row.node_0);
+    result.key = key_of_contact(row.plane, row.node_0);
     return result;
 }
 
