@@ -59,6 +59,10 @@ protected:
     /// Forces and integration, collisions with colliders included.
     virtual void advance_nodes(const Step& step) = 0;
 
+    /// As Measure has them.
+    void set_contact_distances(const std::vector<float>& distances) {
+        measure_.set_contact_distances(distances);
+    }
     /// Made when they are first needed.
     CollisionStages collision_stages();
     /// Null in models without loads. @return with the step's factors

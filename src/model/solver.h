@@ -39,7 +39,7 @@ inline bool has_contacts(const Model& model, const CollisionSettings& collision)
            (model.objects.size() > 1 || collision.self_collision.value_or(true));
 }
 
-/// A node nearer to a collider than this [m] touches it, where no forces of contacts are found.
+/// A node nearer to a collider than this [m] touches it, in explicit steps.
 constexpr double kContactDistance = 1e-5;
 
 /// Below this speed [m/s], which gravity adds in two steps, nodes that collide do not bounce.
@@ -53,7 +53,7 @@ struct ObjectMeasure {
     double potential_energy = 0.0;      ///< [J], zero at the origin, of the nodes that are not pinned
     double volume = 0.0;                ///< [m^3]
     double deepest_penetration = 0.0;   ///< of a node into a collider [m]
-    std::uint32_t contacts = 0;         ///< nodes within kContactDistance of a collider
+    std::uint32_t contacts = 0;         ///< nodes that touch a collider
     std::uint32_t colliding_faces = 0;  ///< that touch another object, or another part of their own
 };
 

@@ -131,37 +131,3 @@ float distance_to_colliders(vec3 p) {
 #endif
     return nearest;
 }
-
-// For solvers whose steps end on the surface of a collider, without a bounce: a node that touches one, and would have entered
-// it with the velocity `unhindered`, gets the normal speed of its rebound.
-void rebound_from(uint c, vec4 surface, vec3 unhindered, float contact_distance, float resting_speed,
-                  inout vec3 velocity) {
-    float approach = -dot(unhindered, surface.xyz);
-    if (surface.w > contact_distance || approach <= resting_speed) return;
-    float restitution = texelFetch(colliders, int(4u * c + 3u)).z;
-    velocity += max(restitution * approach - dot(velocity, surface.xyz), 0.0) * surface.xyz;
-}
-
-void rebound(vec3 p, vec3 unhindered, float contact_distance, float resting_speed, inout vec3 velocity) {
-    uint c = 0u;
-#if (COLLIDER_KINDS & 1) != 0
-    for (; c < collider_ends.x; ++c) {
-        rebound_from(c, distance_to_plane(c, p), unhindered, contact_distance, resting_speed, velocity);
-    }
-#endif
-#if (COLLIDER_KINDS & 2) != 0
-    for (; c < collider_ends.y; ++c) {
-        rebound_from(c, distance_to_rotated_box(c, p), unhindered, contact_distance, resting_speed, velocity);
-    }
-#endif
-#if (COLLIDER_KINDS & 4) != 0
-    for (; c < collider_ends.z; ++c) {
-        rebound_from(c, distance_to_sphere(c, p), unhindered, contact_distance, resting_speed, velocity);
-    }
-#endif
-#if (COLLIDER_KINDS & 8) != 0
-    for (; c < collider_ends.w; ++c) {
-        rebound_from(c, distance_to_capsule(c, p), unhindered, contact_distance, resting_speed, velocity);
-    }
-#endif
-}

@@ -22,7 +22,7 @@ layout(std430) writeonly buffer Sums { NodeSums node_sums[]; };
 #endif
 uniform uint chunk_count;
 uniform vec3 gravity;            // [m/s^2]
-uniform float contact_distance;  // [m]
+uniform samplerBuffer contact_distances;  // of each object [m]
 
 shared NodeSums parts[64];
 
@@ -54,7 +54,7 @@ float quarter_tet_energy(uint n, vec3 position) {
 }
 #endif
 
-NodeSums measure_node(uint n) {
+NodeSums measure_node(uint n, float contact_distance) {
     vec4 position = texelFetch(positions, int(n));
     vec3 velocity = texelFetch(velocities, int(n)).xyz;
     float mass = position.w > 0.0 ? 1.0 / position.w : 0.0;
@@ -85,7 +85,8 @@ void main() {
     Chunk chunk = chunks[group];
     uint lane = gl_LocalInvocationID.x;
     NodeSums sums = NodeSums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0u);
-    for (uint k = lane; k < chunk.count; k += 64u) sums = add(sums, measure_node(chunk.first + k));
+    float contact_distance = texelFetch(contact_distances, int(chunk.object)).x;
+    for (uint k = lane; k < chunk.count; k += 64u) sums = add(sums, measure_node(chunk.first + k, contact_distance));
     parts[lane] = sums;
     barrier();
     if (lane != 0u) return;

@@ -67,19 +67,4 @@ void resolve_colliders(std::span<const Collider> colliders, Real resting_speed, 
     }
 }
 
-/// For solvers whose steps end on the surface of a collider, without a bounce: a node that touches one, and
-/// would have entered it with the velocity `unhindered`, gets the normal speed of its rebound.
-template <class Real>
-void rebound(std::span<const Collider> colliders, const Vec3<Real>& position, const Vec3<Real>& unhindered,
-             Real resting_speed, Vec3<Real>& velocity) {
-    for (const Collider& collider : colliders) {
-        const SurfaceDistance<Real> surface = surface_distance(collider, position);
-        const Real approach = -glm::dot(unhindered, surface.normal);
-        if (surface.distance > static_cast<Real>(kContactDistance) || approach <= resting_speed) continue;
-        const Real lacking =
-            static_cast<Real>(collider.restitution) * approach - glm::dot(velocity, surface.normal);
-        velocity += std::max(lacking, Real(0)) * surface.normal;
-    }
-}
-
 }  // namespace gelatin::cpu

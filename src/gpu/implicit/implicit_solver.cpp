@@ -4,7 +4,6 @@
 #include <cstring>
 #include <utility>
 
-#include "model/contact/contact_surface.h"
 
 namespace gelatin::gpu {
 namespace {
@@ -27,12 +26,14 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
                                const ImplicitSettings& settings)
     : GpuSolver(std::move(model), collision),
       divides_steps_(settings.divides_steps),
-      state_(*model_, make_contact_surface(*model_, collision)),
+      surface_(make_contact_surface(*model_, collision)),
+      state_(*model_, surface_),
       system_(*model_, capacity_of(*model_)),
       start_(*model_, state_, system_),
       end_(*model_, state_, system_),
       shape_matcher_(*model_) {
     system_.iterations = settings.iterations;
+    set_contact_distances({surface_.thicknesses.begin(), surface_.thicknesses.end()});
 }
 
 void ImplicitSolver::begin_measure() {

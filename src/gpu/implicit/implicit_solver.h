@@ -12,6 +12,7 @@
 #include "gpu/implicit/step_state.h"
 #include "gpu/implicit/step_system.h"
 #include "gpu/recovery/match_shapes.h"
+#include "model/contact/contact_surface.h"
 
 namespace gelatin::gpu {
 
@@ -39,6 +40,7 @@ private:
     void complete();
 
     bool divides_steps_;
+    ContactSurface surface_;
     StepState state_;
     StepSystem system_;
     PartStart start_;

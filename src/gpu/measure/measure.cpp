@@ -38,7 +38,9 @@ Measure::Measure(const Model& model, bool self_collision)
       node_sums_(node_chunks_.size()),
       volumes_(face_chunks_.size()),
       colliding_(std::span<const std::uint32_t>(std::vector<std::uint32_t>(face_chunks_.size() + 1))),
-      object_count_(model.objects.size()) {}
+      object_count_(model.objects.size()) {
+    set_contact_distances(std::vector<float>(object_count_, static_cast<float>(kContactDistance)));
+}
 
 void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const CollisionBuffers* collision,
                     const SelfCollisionBuffers* self, const ProximityBuffers* near) {
@@ -53,7 +55,7 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const C
     node_program_.bind("Sums", node_sums_);
     node_program_.set("chunk_count", static_cast<std::uint32_t>(node_chunks_.size()));
     node_program_.set("gravity", model.gravity);
-    node_program_.set("contact_distance", static_cast<float>(kContactDistance));
+    node_program_.bind("contact_distances", contact_distances_);
     node_program_.dispatch_groups(node_chunks_.size());
 
     face_program_.bind("positions", nodes.position_texels);

@@ -22,6 +22,11 @@ public:
     /// @param self_collision whether `begin` is given the buffers of self-collision
     explicit Measure(const Model& model, bool self_collision = false);
 
+    /// How near to a collider nodes of each object touch it [m]; kContactDistance until it is called.
+    void set_contact_distances(const std::vector<float>& distances) {
+        contact_distances_ = {distances, gl::TexelFormat::r32f};
+    }
+
     /// @param collision null if nothing can collide
     /// @param self null if nothing collides with itself
     /// @param near null without a proximity radius
@@ -36,6 +41,7 @@ private:
 
     gl::Program node_program_, face_program_, colliding_program_;
     std::vector<Chunk> node_chunks_, face_chunks_;
+    gl::TexelTable<float> contact_distances_;
     gl::Buffer<Chunk> node_chunk_buffer_, face_chunk_buffer_;
     gl::Buffer<NodeSums> node_sums_;
     gl::Buffer<float> volumes_;
