@@ -69,7 +69,6 @@ public:
         system_.iterations = 0;
         clock_.size = clock_.left = static_cast<float>(kStepSize);
         clock_.goes_on = 1;
-        gl::barrier(gl::Barrier::buffer_update);
         std::vector<glm::vec4> poison = poisoned(model_.node_count());
         poison.resize(model_.node_count());
         state_.to.positions.upload(poison);
@@ -111,6 +110,8 @@ public:
         begin_on_gpu(kStepSize, false);
         end_.run(buffers_, nullptr);
         end_.forget();
+        end_.run(buffers_, nullptr);
+        velocities();
     }
 
     std::vector<glm::vec4> velocities() { return read(state_.from.velocities); }
@@ -205,7 +206,6 @@ private:
         }
         state_.paces.values.upload(paces);
         system_.elastic.linearise(buffers_, state_.from, static_cast<float>(1.0 / step));
-        gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::buffer_update);
         system_.loads().upload(loads);
         system_.displacements().upload(std::vector<glm::vec4>(loads.size(), glm::vec4(0.0f)));
         system_.set_rows(rows, reference_.islands.of_bodies);
