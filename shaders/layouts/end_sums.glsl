@@ -13,12 +13,14 @@ const uint kMotionSums = 16u;
 const uint kForce = 16u;
 const uint kMoment = 19u;
 const uint kMoved = 22u;
-const uint kFinishSums = 25u;
+const uint kFinishSums = 36u;
+// Behind these of free nodes where the part began: momentum, angular momentum about the centre, m r; kinetic and potential energy [J].
+const uint kStart = 25u;
 // Or energies [J], and angular momentum about the centre with the arms where the part began.
 const uint kElastic = 16u;
 const uint kKinetic = 17u;
 const uint kPotential = 18u;
-const uint kStartAngular = 19u;
+const uint kTurning = 19u;
 const uint kEnergySums = 22u;
 // Of contacts where the part began and ends, and work [J]; what presses, and times it how fast; m v^2 beside the rigid motion; the
 // greatest speed.
@@ -29,7 +31,13 @@ const uint kPressing = 3u;
 const uint kApproach = 4u;
 const uint kSquares = 5u;
 const uint kGreatestSpeed = 6u;
-const uint kPartSums = 7u;
+// Then what is in kStart.
+const uint kStartMomentum = 7u;
+const uint kStartAngular = 10u;
+const uint kStartArm = 13u;
+const uint kStartKinetic = 16u;
+const uint kStartPotential = 17u;
+const uint kPartSums = 18u;
 // Of what presses a body on a collider with restitution: force, force n, its moment, force times the arm.
 const uint kPressed = 0u;
 const uint kPressedForce = 1u;

@@ -1,10 +1,8 @@
 // Compiled twice: as GLSL (std430) and as C++ (src/model/layouts.h).
-// Energies of a body where a part begins [J]. CPU twin: cpu::EnergyAccount.
-struct BodyEnergy {      // 40 bytes
+// Of a body what passes from part to part [J]. CPU twin: cpu::EnergyAccount.
+struct BodyEnergy {      // 24 bytes
     double elastic;
-    double kinetic;
-    double potential;
-    double contacts;     // its contacts
+    double contacts;     // of its contacts
     double debt;         // what it has gained beyond what drove it, and still has
 };
 // What the end of a part does to the velocities of a body's free nodes: v becomes (1 - part) v + velocity + spin x r.

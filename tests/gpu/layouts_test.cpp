@@ -104,8 +104,7 @@ TEST_F(LayoutsTest, StepSystem) {
 
 TEST_F(LayoutsTest, StepEnds) {
     check("step_end.glsl", "BodyEnergy", sizeof(BodyEnergy),
-          {FIELD(BodyEnergy, elastic), FIELD(BodyEnergy, kinetic), FIELD(BodyEnergy, potential),
-           FIELD(BodyEnergy, contacts), FIELD(BodyEnergy, debt)});
+          {FIELD(BodyEnergy, elastic), FIELD(BodyEnergy, contacts), FIELD(BodyEnergy, debt)});
     check("step_end.glsl", "BodyChange", sizeof(BodyChange),
           {FIELD(BodyChange, center), FIELD(BodyChange, velocity), FIELD(BodyChange, spin),
            FIELD(BodyChange, action), FIELD(BodyChange, unused_0), FIELD(BodyChange, unused_1),

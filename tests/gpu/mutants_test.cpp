@@ -8,6 +8,7 @@
 
 #include "gpu/support/collision_scenarios.h"
 #include "gpu/support/implicit_scenarios.h"
+#include "gpu/support/part_end_scenarios.h"
 #include "gpu/support/part_start_scenarios.h"
 #include "gpu/support/solver_scenarios.h"
 #include "mutants/collision_mutants.h"
@@ -35,6 +36,9 @@ TEST_P(MutantsLong, IsCaught) {
 }
 INSTANTIATE_TEST_SUITE_P(StepRows, MutantsLong,
                          ::testing::ValuesIn(cases(kStepRowMutants, step_system_scenarios())), name_of_case);
+
+INSTANTIATE_TEST_SUITE_P(PartEnds, MutantsLong,
+                         ::testing::ValuesIn(cases(kPartEndMutants, part_end_scenarios())), name_of_case);
 
 #define INSTANTIATE_MUTANTS(name, mutants, scenarios) \
     INSTANTIATE_TEST_SUITE_P(name, MutantsTest, ::testing::ValuesIn(cases(mutants, scenarios)), name_of_case)

@@ -1,4 +1,4 @@
-// Energies of bodies where a step begins, of whatever has set nodes; one invocation an object.
+// The elastic energy of bodies where a step begins, whatever has set nodes; one invocation an object.
 // CPU twin: gelatin::cpu::EnergyAccount::begin. Parity: tests/gpu/implicit/part_end_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/end_sums.glsl"
@@ -13,12 +13,8 @@ layout(std430) buffer BodyEnergies { BodyEnergy energies[]; };
 void main() {
     uint o = global_index();
     if (o >= object_count) return;
-    double elastic = 0.0LF, kinetic = 0.0LF, potential = 0.0LF;
+    double elastic = 0.0LF;
     uint end = texelFetch(chunk_starts, int(o) + 1).x;
-    for (uint c = texelFetch(chunk_starts, int(o)).x; c < end; ++c) {
-        elastic += energy_sums[c * kEnergySums + kElastic];
-        kinetic += energy_sums[c * kEnergySums + kKinetic];
-        potential += energy_sums[c * kEnergySums + kPotential];
-    }
-    energies[o] = BodyEnergy(elastic, kinetic, potential, energies[o].contacts, energies[o].debt);
+    for (uint c = texelFetch(chunk_starts, int(o)).x; c < end; ++c) elastic += energy_sums[c * kEnergySums + kElastic];
+    energies[o].elastic = elastic;
 }

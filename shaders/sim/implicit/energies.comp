@@ -70,8 +70,9 @@ void prepare(uint object) {
     dvec3 force_before = past * dvec3(pace.force.xyz), moment_before = past * dvec3(pace.moment.xyz);
     force = (force + alpha * force_before) / (1.0LF + alpha);
     moment = (moment + alpha * moment_before) / (1.0LF + alpha);
-    dvec3 momentum = dvec3(pace.momentum.xyz) + h * ((1.0LF - gamma) * force_before + gamma * force) - has;
-    dvec3 angular = dvec3(pace.angular.xyz) + h * ((1.0LF - gamma) * moment_before + gamma * moment) - turns;
+    dvec3 had = of_body(kStart), had_angular = of_body(kStart + 3u) - cross(missing.inverse_mass * of_body(kStart + 6u), had);
+    dvec3 momentum = had + h * ((1.0LF - gamma) * force_before + gamma * force) - has;
+    dvec3 angular = had_angular + h * ((1.0LF - gamma) * moment_before + gamma * moment) - turns;
     missing.velocity = missing.inverse_mass * momentum;
     missing.spin = missing.inverse_inertia * angular;
 }
@@ -144,7 +145,7 @@ void main() {
     uvec4 chunk = texelFetch(chunks, int(c));
     if (!has_to(chunk.x)) return;
     prepare(chunk.x);
-    dvec3 center = dvec3(texelFetch(bodies, 5 * int(chunk.x)).xyz), start_angular = dvec3(0.0LF);
+    dvec3 center = dvec3(texelFetch(bodies, 5 * int(chunk.x)).xyz), turning = dvec3(0.0LF);
     double motion[kMotionSums], kinetic = 0.0LF, potential = 0.0LF;
     for (uint k = 0u; k < kMotionSums; ++k) motion[k] = 0.0LF;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
@@ -155,7 +156,7 @@ void main() {
         change_velocity(n, r);
         dvec3 v = dvec3(velocity_at(n).xyz);
         add_node(m, r, v, motion);
-        start_angular += m * cross(dvec3(texelFetch(start_positions, int(n)).xyz) - center, v);
+        turning += m * cross(dvec3(texelFetch(start_positions, int(n)).xyz) - center, v);
         kinetic += 0.5LF * m * dot(v, v);
         potential -= m * dot(dvec3(gravity), dvec3(x.xyz));
     }
@@ -163,7 +164,7 @@ void main() {
     put_sum(kElastic, elastic_energy(c, chunk));
     put_sum(kKinetic, kinetic);
     put_sum(kPotential, potential);
-    put_sums(kStartAngular, start_angular);
+    put_sums(kTurning, turning);
     barrier();
     for (uint k = lane; k < kSums; k += 64u) energy_sums[c * kSums + k] = sum_of_lanes(k);
 }

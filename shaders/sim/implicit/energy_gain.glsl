@@ -29,37 +29,45 @@ void find_motion(uint o, out double motion[kMotionSums]) {
     for (uint k = 0u; k < kMotionSums; ++k) motion[k] = energy_sum(o, k);
 }
 
+dvec3 part_sums_of(uint o, uint k) { return dvec3(part_sum(o, k), part_sum(o, k + 1u), part_sum(o, k + 2u)); }
+
 struct BodyGain {
-    BodyEnergy after;   // where the part ends [J]
+    BodyEnergy after;   // where the part ends
+    double before_all, after_all;  // kinetic, elastic and potential energy where it began and ends [J]
     double owed, dues;  // of what is owed more than the slack [J]
     double vibrations;  // [J]
     float gained;       // beyond vibrations, as a part of the energy then; infinite where something is not finite
 };
 
+// @param motion of energy_sums
 BodyGain gain_of(uint o, BodyPace pace, BodyEnergy before, double motion[kMotionSums], bool is_free) {
     BodyGain gain;
-    gain.after = BodyEnergy(energy_sum(o, kElastic), energy_sum(o, kKinetic), energy_sum(o, kPotential),
-                            part_sum(o, kContactsAtEnd), before.debt);
-    double moves = gain.after.elastic + gain.after.kinetic, motions = before.elastic + before.kinetic;
-    double slack = double(kLeastEnergy) + double(kEnergyRounding) * (moves + abs(gain.after.potential));
+    gain.after = BodyEnergy(energy_sum(o, kElastic), part_sum(o, kContactsAtEnd), before.debt);
+    double kinetic = energy_sum(o, kKinetic), potential = energy_sum(o, kPotential);
+    double potential_before = part_sum(o, kStartPotential);
+    double motions = before.elastic + part_sum(o, kStartKinetic), moves = gain.after.elastic + kinetic;
+    gain.before_all = motions + potential_before;
+    gain.after_all = moves + potential;
+    double slack = double(kLeastEnergy) + double(kEnergyRounding) * (moves + abs(potential));
     double gained = moves + gain.after.contacts - motions - part_sum(o, kWork);
     dvec3 momentum = triple(motion, kMomentum);
     if (pace.is_held != 0u) {
-        gained += gain.after.potential - before.potential;
+        gained += potential - potential_before;
     } else {
         // What nothing holds moves on as a whole, and falls, as it does.
-        double mass = double(pace.velocity.w), whole = 0.5LF * mass * dot(dvec3(pace.velocity.xyz), dvec3(pace.velocity.xyz));
-        gained -= 0.5LF * dot(momentum, momentum) / mass - whole;
+        dvec3 momentum_before = part_sums_of(o, kStartMomentum);
+        double twice = 2.0LF * double(pace.velocity.w), whole = dot(momentum_before, momentum_before) / twice;
+        gained -= dot(momentum, momentum) / twice - whole;
         motions = max(motions - whole, 0.0LF);
     }
     slack += double(kSlackOfEnergy) * motions;
     gain.owed = before.debt + gained - before.contacts;
     gain.dues = max(gain.owed - slack, 0.0LF);
-    gain.vibrations = gain.after.kinetic;
+    gain.vibrations = kinetic;
     if (is_free) {
         RigidPart rigid = rigid_part_of(motion);
         dvec3 turns = triple(motion, kAngular) - cross(rigid.center, momentum);
-        gain.vibrations = max(gain.vibrations - 0.5LF * (dot(rigid.velocity, momentum) + dot(rigid.spin, turns)), 0.0LF);
+        gain.vibrations = max(kinetic - 0.5LF * (dot(rigid.velocity, momentum) + dot(rigid.spin, turns)), 0.0LF);
     }
     double beyond = max(gained - part_sum(o, kContactsAtStart) - slack, 0.0LF) - gain.vibrations;
     // Of a maximum with what is no number either may come out.

@@ -1,7 +1,7 @@
 // Where nodes are when a part ends, and how fast: rigid motions of free bodies become true rotations, to first order bodies would
 // grow. What contacts with planes pass on; what acts on free bodies and how they move, by chunk. A work group a chunk.
 // CPU twins: gelatin::cpu::RigidLevel::rotate, TimeScheme::velocity, ContactRows::note. Parity: tests/gpu/implicit/part_end_test.cpp.
-const uint kSums = 25u;  // kFinishSums
+const uint kSums = 36u;  // kFinishSums
 #include "layouts/step_state.glsl"
 #include "sim/drive/load_force.glsl"
 #include "sim/drive/pull.glsl"
@@ -17,6 +17,7 @@ uniform samplerBuffer base_sums;      // ResidualSums of chunks, two texels each
 uniform samplerBuffer slips;          // s of rows [m]; w: limit of friction [N]
 uniform usamplerBuffer entry_starts;  // of each node, and the end
 uniform usamplerBuffer row_entries;   // 4 row + place of the node in it
+uniform vec3 gravity;                 // [m/s^2]
 uniform uint collider_count;
 uniform uint body_node_count;
 layout(std430) readonly buffer Clock { StepClock clock[]; };
@@ -42,14 +43,20 @@ BodyMotion rigid_motion(uint object) {
     return BodyMotion(vec4(texelFetch(bodies, first).w * force, 0.0), vec4(inverse_inertia * moment, 0.0));
 }
 
-// What the displacement at r differs by if the rotation w is a true one. Of (sin t / t - 1) and (1 - cos t) / t^2 nothing cancels.
+// What the displacement at r differs by if the rotation w is a true one: of (sin t / t - 1) and (1 - cos t) / t^2 nothing cancels, and
+// drivers' sines are less exact.
 vec3 by_true_rotation(BodyMotion motion, vec3 r, vec3 d) {
     vec3 w = motion.rotation.xyz, turned = cross(w, r), rest = d - motion.displacement.xyz - turned;
-    float square = dot(w, w), angle = sqrt(square);
-    float half_sine = angle > 1e-4 ? 2.0 * sin(0.5 * angle) / angle : 1.0;
-    float lack = square < 0.25 ? -square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)))
-                               : sin(angle) / angle - 1.0;
-    float across = 0.5 * half_sine * half_sine;
+    float t = dot(w, w), lack = 0.0, across = 1.0;
+    if (t < 10.0) {
+        for (float k = 16.0; k > 1.0; k -= 2.0) {
+            lack = -t / (k * (k + 1.0)) * (1.0 + lack);
+            across = k > 2.0 ? 1.0 - t / (k * (k - 1.0)) * across : 0.5 * across;
+        }
+    } else {
+        lack = sin(sqrt(t)) / sqrt(t) - 1.0;
+        across = (1.0 - cos(sqrt(t))) / t;
+    }
     return lack * turned + across * cross(w, turned) + (1.0 + lack) * cross(w, rest) + across * cross(w, cross(w, rest));
 }
 
@@ -88,7 +95,9 @@ void main() {
     Scheme scheme = scheme_of(clock[0].step, paces[chunk.x].past);
     double motion[kMotionSums];
     for (uint k = 0u; k < kMotionSums; ++k) motion[k] = 0.0LF;
-    dvec3 forces = dvec3(0.0LF), moments = dvec3(0.0LF), moved = dvec3(0.0LF);
+    dvec3 forces = dvec3(0.0LF), moments = dvec3(0.0LF), moved = dvec3(0.0LF), momentum = dvec3(0.0LF), angular = dvec3(0.0LF),
+          arms = dvec3(0.0LF);
+    double kinetic = 0.0LF, potential = 0.0LF;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
         for (uint k = 0u; k < collider_count && n < body_node_count; ++k)
             notes[k * body_node_count + n] = PlaneMemory(vec4(0.0), 0.0, 0.0, 0.0, 0.0);
@@ -97,6 +106,7 @@ void main() {
         if (is_free) d += by_true_rotation(rigid, x.xyz - center, d);
         displacements[n] = vec4(d, 0.0);
         vec3 end = x.xyz + d;
+        dvec3 start = dvec3(x.xyz) - dvec3(center), before = dvec3(v.xyz);
         if (x.w > 0.0) v.xyz = velocity_by(scheme, v.xyz, texelFetch(accelerations, int(n)).xyz, d);
         end_positions[n] = vec4(end, x.w);
         end_velocities[n] = v;
@@ -107,11 +117,21 @@ void main() {
         forces += dvec3(force);
         moments += cross(r, dvec3(force));
         moved += m * dvec3(d);
+        momentum += m * before;
+        angular += m * cross(start, before);
+        arms += m * start;
+        kinetic += 0.5LF * m * dot(before, before);
+        potential -= m * dot(dvec3(gravity), dvec3(x.xyz));
     }
     put_motion(motion);
     put_sums(kForce, forces);
     put_sums(kMoment, moments);
     put_sums(kMoved, moved);
+    put_sums(kStart, momentum);
+    put_sums(kStart + 3u, angular);
+    put_sums(kStart + 6u, arms);
+    put_sum(kStart + 9u, kinetic);
+    put_sum(kStart + 10u, potential);
     barrier();
     for (uint k = lane; k < kSums; k += 64u) finish_sums[c * kSums + k] = sum_of_lanes(k);
 }

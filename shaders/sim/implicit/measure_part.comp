@@ -1,7 +1,7 @@
 // What a part has done, by chunk, a work group each: energy of contacts where it began and ends, work of loads, hands and held nodes;
 // how fast bodies move beside what they touch; and what presses them on colliders with restitution.
 // CPU twins: gelatin::cpu::EnergyAccount, Paces::find, Restitution. Parity: tests/gpu/implicit/part_end_test.cpp.
-const uint kSums = 10u;  // kPressedSums; kPartSums are fewer
+const uint kSums = 10u;  // kPressedSums; of kPartSums fewer are summed here
 #define PRODUCTS
 #include "layouts/step_state.glsl"
 #include "sim/drive/load_force.glsl"
@@ -22,6 +22,7 @@ layout(std430) readonly buffer Clock { StepClock clock[]; };
 layout(std430) readonly buffer Paces { BodyPace paces[]; };
 layout(std430) readonly buffer Rows { StepRow rows[]; };
 layout(std430) readonly buffer ElasticForces { vec4 elastic_forces[]; };  // where the part begins [N]
+layout(std430) readonly buffer FinishSums { double finish_sums[]; };      // by chunk
 layout(std430) readonly buffer EnergySums { double energy_sums[]; };      // by chunk
 layout(std430) writeonly buffer PartSums { double part_sums[]; };         // by chunk
 layout(std430) writeonly buffer PressedSums { double pressed_sums[]; };   // by collider and chunk
@@ -44,7 +45,7 @@ BodyMotion rigid_velocity(uint object) {
     mat3 inverse_inertia = mat3(d.x, b.z, b.y, b.z, d.y, b.x, b.y, b.x, d.z);
     float mass = paces[object].velocity.w, weight = texelFetch(bodies, first + 3).w / mass;
     return BodyMotion(vec4(vec3(sums_of_body(object, kMomentum)) / mass, 0.0),
-                      vec4(weight * (inverse_inertia * vec3(sums_of_body(object, kStartAngular))), 0.0));
+                      vec4(weight * (inverse_inertia * vec3(sums_of_body(object, kTurning))), 0.0));
 }
 
 // On a node where the part begins and its displacement d [J].
@@ -67,8 +68,8 @@ void main() {
     uvec4 chunk = texelFetch(chunks, int(c));
     vec3 center = center_of(chunk.x);
     BodyMotion rigid = rigid_velocity(chunk.x);
-    double sums[kPartSums];
-    for (uint k = 0u; k < kPartSums; ++k) sums[k] = 0.0LF;
+    double sums[kStartMomentum];
+    for (uint k = 0u; k < kStartMomentum; ++k) sums[k] = 0.0LF;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
         vec4 x = texelFetch(positions, int(n));
         vec3 v = texelFetch(velocities, int(n)).xyz, moves = at_node(rigid, center, n), beside = v - moves;
@@ -87,10 +88,12 @@ void main() {
             sums[kApproach] += double(force * abs(dot(row.normal.xyz, moves)));
         }
     }
-    for (uint k = 0u; k < kPartSums; ++k) put_sum(k, sums[k]);
+    for (uint k = 0u; k < kStartMomentum; ++k) put_sum(k, sums[k]);
     barrier();
     if (lane < kGreatestSpeed) part_sums[c * kPartSums + lane] = sum_of_lanes(lane);
     if (lane == kGreatestSpeed) part_sums[c * kPartSums + lane] = most_of_lanes(lane);
+    if (kStartMomentum + lane < kPartSums)
+        part_sums[c * kPartSums + kStartMomentum + lane] = finish_sums[c * kFinishSums + kStart + lane];
     for (uint p = 0u; p < collider_count; ++p) {
         if (!(texelFetch(colliders, 4 * int(p) + 3).z > 0.0)) continue;
         float pressed = 0.0;

@@ -27,48 +27,52 @@ void rigid_velocity(uint o, double mass, dvec3 momentum, dvec3 angular, out dvec
     spin = double(texelFetch(bodies, first + 3).w) / mass * (inverse_inertia * angular);
 }
 
+// How fast a free body's momenta have changed. @param angular momentum about its centre of mass
+void find_rates(uint o, float size, dvec3 momentum, dvec3 angular) {
+    BodyPace pace = paces[o];
+    Scheme scheme = scheme_of(size, pace.past);
+    dvec3 before = part_sums_of(o, kStartMomentum);
+    dvec3 angular_before = part_sums_of(o, kStartAngular) - cross(part_sums_of(o, kStartArm) / double(pace.velocity.w), before);
+    paces[o].force = vec4(rate_by(scheme, pace.force.xyz, vec3(momentum - before)), 0.0);
+    paces[o].moment = vec4(rate_by(scheme, pace.moment.xyz, vec3(angular - angular_before)), 0.0);
+}
+
 // What is owed, as far as the body vibrates.
-void pay(BodyGain gain, inout BodyChange change, inout BodyEnergy energy) {
+void pay(inout BodyGain gain, inout BodyChange change) {
     double left = max(gain.owed, 0.0LF);
     if (gain.dues > 0.0LF && gain.vibrations > 0.0LF) {
         double part = min(gain.dues / gain.vibrations, 1.0LF);
         change.center.w = float(1.0LF - sqrt(1.0LF - part));
-        energy.kinetic -= part * gain.vibrations;
         left -= part * gain.vibrations;
+        gain.after_all -= part * gain.vibrations;
     }
-    energy.debt = left;
+    gain.after.debt = left;
 }
 
-// Of a free body, its part of what happens at the end; else its impacts are forgotten. @return whether it is struck
-bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], BodyEnergy before, inout BodyChange change,
-                inout BodyEnergy energy) {
+// Of a free body, what happens to its motion; else its impacts are forgotten. @return whether it is struck
+bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], BodyGain gain, inout BodyChange change) {
     if (!is_free) {
         for (uint p = 0u; p < collider_count; ++p)
             for (uint k = 0u; k < kMeeting; ++k) meetings[(p * object_count + o) * kMeeting + k] = 0.0LF;
         return false;
     }
-    BodyPace pace = paces[o];
+    double mass = double(paces[o].velocity.w);
+    dvec3 momentum = triple(motion, kMomentum), turning = dvec3(energy_sum(o, kTurning), energy_sum(o, kTurning + 1u), energy_sum(o, kTurning + 2u));
     Impacting body;
     body.size = size;
     body.now = rigid_part_of(motion);
-    dvec3 momentum = triple(motion, kMomentum), turns = triple(motion, kAngular) - cross(body.now.center, momentum);
-    dvec3 start_angular = dvec3(energy_sum(o, kStartAngular), energy_sum(o, kStartAngular + 1u), energy_sum(o, kStartAngular + 2u));
-    rigid_velocity(o, double(pace.velocity.w), dvec3(pace.momentum.xyz), dvec3(pace.angular.xyz), body.before, body.spin_before);
-    rigid_velocity(o, double(pace.velocity.w), momentum, start_angular, body.after, body.spin_after);
-    body.energy_before = before.elastic + before.kinetic + before.potential;
-    body.energy = energy.elastic + energy.kinetic + energy.potential;
+    rigid_velocity(o, mass, part_sums_of(o, kStartMomentum), part_sums_of(o, kStartAngular), body.before, body.spin_before);
+    rigid_velocity(o, mass, momentum, turning, body.after, body.spin_after);
+    body.energy_before = gain.before_all;
+    body.energy = gain.after_all;
     body.impulse = body.moment = dvec3(0.0LF);
     body.is_struck = false;
-    double energy_then = body.energy;
     for (uint p = 0u; p < collider_count; ++p) bounce(p, o, body);
-    energy.kinetic += body.energy - energy_then;
     double part = double(change.center.w);
     change.center.xyz = vec3(body.now.center) + texelFetch(bodies, 5 * int(o)).xyz;
     change.velocity = vec4(vec3(part * body.now.velocity + body.now.inverse_mass * body.impulse), 0.0);
     change.spin = vec4(vec3(part * body.now.spin + body.now.inverse_inertia * body.moment), 0.0);
-    Scheme scheme = scheme_of(size, pace.past);
-    paces[o].force = vec4(rate_by(scheme, pace.force.xyz, vec3(momentum + body.impulse - dvec3(pace.momentum.xyz))), 0.0);
-    paces[o].moment = vec4(rate_by(scheme, pace.moment.xyz, vec3(turns + body.moment - dvec3(pace.angular.xyz))), 0.0);
+    find_rates(o, size, momentum + body.impulse, triple(motion, kAngular) - cross(body.now.center, momentum) + body.moment);
     return body.is_struck;
 }
 
@@ -76,26 +80,21 @@ void make(uint o, float size) {
     bool is_free = texelFetch(bodies, 5 * int(o)).w > 0.0, was_stopped = changes[o].action == 3u;
     double motion[kMotionSums];
     find_motion(o, motion);
-    BodyEnergy before = energies[o];
-    BodyGain gain = gain_of(o, paces[o], before, motion, is_free);
+    BodyGain gain = gain_of(o, paces[o], energies[o], motion, is_free);
     BodyChange change = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), 1u, 0u, 0u, 0u);
-    BodyEnergy energy = gain.after;
-    pay(gain, change, energy);
-    bool is_struck = end_motion(o, size, is_free, motion, before, change, energy);
+    pay(gain, change);
+    bool is_struck = end_motion(o, size, is_free, motion, gain, change);
     paces[o].is_struck = is_struck || was_stopped ? 1u : 0u;
-    energies[o] = energy;
+    energies[o] = gain.after;
     changes[o] = change;
 }
 
 // What is not finite.
 void stay(uint o, float size) {
-    BodyPace pace = paces[o];
-    Scheme scheme = scheme_of(size, pace.past);
     paces[o].is_struck = 1u;
-    paces[o].force = vec4(rate_by(scheme, pace.force.xyz, -pace.momentum.xyz), 0.0);
-    paces[o].moment = vec4(rate_by(scheme, pace.moment.xyz, -pace.angular.xyz), 0.0);
-    energies[o] = BodyEnergy(energies[o].elastic, 0.0LF, energies[o].potential, 0.0LF, 0.0LF);
-    changes[o] = BodyChange(vec4(vec3(0.0), 1.0), vec4(0.0), vec4(0.0), 2u, 0u, 0u, 0u);
+    find_rates(o, size, dvec3(0.0LF), dvec3(0.0LF));
+    energies[o] = BodyEnergy(energies[o].elastic, 0.0LF, 0.0LF);
+    changes[o] = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), 2u, 0u, 0u, 0u);
 }
 
 void main() {

@@ -22,14 +22,14 @@ namespace gelatin::gpu {
 /// Restitution, TimeScheme.
 ///
 /// What it needs of the state where a try is solved: `from`, accelerations; of the clock size, left, step,
-/// has_past, goes_on and is_over; of paces is_held, past, velocity, momentum and angular. A part that is made
-/// ends in `from`.
+/// has_past, goes_on and is_over; of paces is_held, past, and the mass beside the velocity. A part that is
+/// made ends in `from`.
 class PartEnd {
 public:
     /// @param state, system have to live as long
     PartEnd(const Model& model, StepState& state, StepSystem& system);
 
-    /// A step begins: finds energies of bodies in `from`, which may have been set from outside.
+    /// A step begins: finds the elastic energy of bodies in `from`, which may have been set from outside.
     void begin_step(const ModelBuffers& model) const;
     /// After a solve. @param loads null: the model has none @pre they are those that the solve had
     /// Ends with the barrier for whoever reads the state.

@@ -1,482 +1,20 @@
 #include "gpu/support/part_end_scenarios.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "core/archive.h"
-#include "cpu/contact/tuning.h"
-#include "gpu/drive/sum_loads.h"
-#include "gpu/implicit/part_end.h"
-#include "gpu/support/end_reference.h"
-#include "model/shared_constants.h"
+#include "gpu/support/end_of_parts.h"
 #include "support/contact_scenes.h"
-#include "support/converted.h"
 #include "support/elastic_cases.h"
-#include "support/parity.h"
-#include "support/random_maker.h"
 
 namespace gelatin::test {
 namespace {
 
 using Outcome = EndReference::Outcome;
-constexpr double kStepSize = 1.0 / 60.0;  // [s]
-
-// What happens to a part before its end, beside its solve.
-struct PartChange {
-    double step = kStepSize / 4.0;  // [s]
-    double noise = 0.0;             // of displacements, as a speed [m/s]
-    glm::dvec3 push{0.0};           // of all nodes, as a speed [m/s]
-    bool breaks = false;            // a displacement is no number
-    bool sets_velocities = false;   // before it, from outside
-    bool forgets = false;           // before it
-    bool goes_on = false;           // before it, with velocities of before
-};
-
-struct EndCase {
-    std::shared_ptr<const Model> model;
-    std::vector<PartChange> parts;
-    double restitution = 0.0;
-    bool is_pulled = false;
-    std::vector<Outcome> outcomes = {};  // of tries that have to be among them
-    bool is_struck = false;              // some body has to be struck
-    bool is_guarded = false;             // the guard has to move nodes
-};
-
-// The greatest error over its bound.
-class WorstError {
-public:
-    void add(double actual, double expected, double bound) {
-        const double error = std::abs(actual - expected) / bound;
-        worst_ = std::isfinite(error) ? std::max(worst_, error) : std::numeric_limits<double>::infinity();
-    }
-    void add(const glm::dvec3& actual, const glm::dvec3& expected, double bound) {
-        for (int k = 0; k < 3; ++k) add(actual[k], expected[k], bound);
-    }
-    void fail_if(bool is_wrong) { worst_ = std::max(worst_, error_if(is_wrong)); }
-    double worst() const { return worst_; }
-
-private:
-    double worst_ = 0.0;
-};
-
-// The private state of one of the reference's classes, in the order in which it is written.
-class StateReader {
-public:
-    template <class Owner>
-    explicit StateReader(Owner& owner) {
-        Archive archive = Archive::that_writes(bytes_);
-        owner.archive(archive);
-    }
-    template <class T>
-    T take() {
-        T value;
-        std::memcpy(&value, bytes_.data() + at_, sizeof(T));
-        at_ += sizeof(T);
-        return value;
-    }
-    template <class T>
-    std::vector<T> take(std::size_t count) {
-        std::vector<T> values;
-        for (std::size_t k = 0; k < count; ++k) values.push_back(take<T>());
-        return values;
-    }
-
-private:
-    std::string bytes_;
-    std::size_t at_ = 0;
-};
-
-StepRow end_row(const cpu::ContactRow<double>& row) {
-    StepRow result{};
-    result.node_0 = row.nodes[0];
-    result.weights = glm::vec4(row.weights[0], 0.0, 0.0, 0.0);
-    result.normal = glm::vec4(row.normal, row.gap);
-    result.reach = static_cast<float>(row.reach);
-    result.stiffness = static_cast<float>(row.stiffness);
-    result.damping = static_cast<float>(row.damping);
-    result.friction = static_cast<float>(row.friction);
-    result.hold = glm::vec4(row.hold, row.limit);
-    result.object = row.object;
-    result.other = row.other;
-    result.plane = row.plane();
-    result.ease = static_cast<float>(row.ease);
-    return result;
-}
-
-template <class T>
-std::vector<T> read(const gl::Buffer<T>& buffer) {
-    std::vector<T> values(buffer.size());
-    gl::barrier(gl::Barrier::buffer_update);
-    buffer.download(values);
-    return values;
-}
-
-std::vector<glm::vec4> as_floats(const std::vector<glm::dvec4>& values) {
-    return {values.begin(), values.end()};
-}
-
-// Of nodes that have masses by what they weigh; of held ones that of the model.
-struct StartMomenta {
-    glm::dvec3 momentum{0.0}, angular{0.0};
-};
-StartMomenta momenta_of(const Model& model, const ModelObject& body, const cpu::Nodes<double>& nodes) {
-    StartMomenta sums;
-    glm::dvec3 middle(0.0);
-    double mass = 0.0;
-    for (std::uint32_t n = body.nodes.first; n < body.nodes.end(); ++n) {
-        const double w = nodes.positions[n].w, m = w > 0.0 ? 1.0 / w : static_cast<double>(model.masses[n]);
-        const glm::dvec3 r(nodes.positions[n]), v(nodes.velocities[n]);
-        mass += m;
-        middle += m * r;
-        sums.momentum += m * v;
-        sums.angular += m * glm::cross(r, v);
-    }
-    sums.angular -= glm::cross(middle, sums.momentum) / mass;
-    return sums;
-}
-
-// Both ways to end parts, of a case.
-class EndOfParts {
-public:
-    explicit EndOfParts(const EndCase& at)
-        : at_(at),
-          model_(*at.model),
-          buffers_(model_),
-          surface_(make_contact_surface(model_, {})),
-          state_(model_, surface_),
-          system_(model_, std::max<std::size_t>(model_.colliders.size() * model_.body_node_count(), 1)),
-          end_(model_, state_, system_),
-          reference_(at.model, at.restitution),
-          pulls_(model_.node_count()) {
-        if (!model_.loads.empty()) {
-            loads_.emplace(model_);
-            loads_->run(state_.from);
-            for (const glm::vec4& force : read(loads_->forces())) reference_.loads.emplace_back(force);
-        }
-        if (at.is_pulled) hold();
-        system_.iterations = 0;
-        clock_.size = clock_.left = static_cast<float>(kStepSize);
-        clock_.goes_on = 1;
-        gl::barrier(gl::Barrier::buffer_update);
-        std::vector<glm::vec4> poison = poisoned(model_.node_count());
-        poison.resize(model_.node_count());
-        state_.to.positions.upload(poison);
-        state_.to.velocities.upload(poison);
-        const float nothing = std::numeric_limits<float>::quiet_NaN();
-        state_.plane_notes.upload(std::vector<PlaneMemory>(
-            state_.plane_notes.size(), {glm::vec4(nothing), nothing, nothing, nothing, nothing}));
-    }
-
-    /// @return the greatest error over its bound
-    double run() {
-        RandomMaker random(5);
-        end_.begin_step(buffers_);
-        std::vector<Outcome> outcomes;
-        for (const PartChange& part : at_.parts) {
-            if (part.sets_velocities) set_velocities(random);
-            if (part.forgets || part.goes_on) forget(part.goes_on, random);
-            reference_.begin();
-            bool damps = false;
-            for (double step = part.step;;) {
-                const Outcome outcome = try_part(part, step, damps, random);
-                outcomes.push_back(outcome);
-                if (outcome == Outcome::made || outcome == Outcome::stood_still) break;
-                damps = outcome == Outcome::damped;
-                if (!damps) step *= 0.5;
-                if (outcomes.size() > 60) return std::numeric_limits<double>::infinity();
-            }
-        }
-        for (const Outcome wanted : at_.outcomes)
-            error_.fail_if(std::find(outcomes.begin(), outcomes.end(), wanted) == outcomes.end());
-        error_.fail_if((at_.is_struck && !was_struck_) || (at_.is_guarded && !was_guarded_));
-        return error_.worst();
-    }
-
-    void use_programs() {
-        end_.begin_step(buffers_);
-        reference_.begin();
-        reference_.solve(kStepSize, false);
-        begin_on_gpu(kStepSize, false);
-        end_.run(buffers_, nullptr);
-        end_.forget();
-    }
-
-    std::vector<glm::vec4> velocities() { return read(state_.from.velocities); }
-
-private:
-    void hold() {
-        Pull pull;
-        pull.target = {0.3, 0.8, 0.1};
-        pull.damping_time = 0.02;
-        const Range& nodes = model_.objects[0].nodes;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); n += 4)
-            pull.nodes.push_back({n, glm::vec3(0.05f, 0.0f, 0.02f), 800.0f * model_.masses[n]});
-        std::vector<glm::vec3> forces(model_.node_count(), glm::vec3(0.0f));
-        for (std::uint32_t n = nodes.first; n < nodes.end(); n += 5)
-            forces[n] = model_.masses[n] * glm::vec3(20.0f, -30.0f, 10.0f);
-        buffers_.pulls.set_pulls({pull});
-        buffers_.pulls.set_forces(forces);
-        pulls_.set_pulls({pull});
-        pulls_.set_forces(forces);
-        reference_.pulls = &pulls_;
-    }
-
-    void set_velocities(RandomMaker& random) {
-        for (std::size_t n = 0; n < reference_.from.velocities.size(); ++n)
-            reference_.from.velocities[n] += glm::dvec4(glm::vec4(random.point(0.1), 0.0));
-        reference_.energy.change();
-        gl::barrier(gl::Barrier::buffer_update);
-        state_.from.velocities.upload(as_floats(reference_.from.velocities));
-        end_.begin_step(buffers_);
-    }
-
-    void forget(bool goes_on, RandomMaker& random) {
-        reference_.energy.forget();
-        reference_.rows.forget();
-        reference_.scheme.forget();
-        reference_.restitution.forget();
-        reference_.paces.forget();
-        if (goes_on) {
-            std::vector<glm::dvec4> earlier = reference_.from.velocities;
-            for (glm::dvec4& v : earlier) v += glm::dvec4(glm::vec4(random.point(0.01), 0.0));
-            reference_.scheme.go_on(reference_.from, earlier, kStepSize);
-            end_.go_on(as_floats(reference_.from.positions), as_floats(reference_.from.velocities),
-                       as_floats(earlier), kStepSize);
-        } else {
-            end_.forget();
-        }
-        end_.begin_step(buffers_);
-    }
-
-    Outcome try_part(const PartChange& part, double step, bool damps, RandomMaker& random) {
-        reference_.solve(step, damps);
-        for (std::size_t n = 0; n < reference_.system.displacements.size(); ++n) {
-            glm::dvec3& d = reference_.system.displacements[n];
-            if (reference_.from.positions[n].w > 0.0)
-                d += step * (part.push + random.point(std::max(part.noise, 1e-9)));
-            d = glm::dvec3(glm::vec3(d));
-        }
-        if (part.breaks) reference_.system.displacements[3].x = std::numeric_limits<double>::quiet_NaN();
-        begin_on_gpu(step, damps);
-        end_.run(buffers_, loads_ ? &*loads_ : nullptr);
-        const std::vector<cpu::ContactRow<double>> rows = reference_.system.rows;
-        const double shortest = kStepSize / cpu::tuning::kMostParts;
-        const Outcome outcome = reference_.end(shortest);
-        was_guarded_ = was_guarded_ || reference_.is_guarded;
-        compare_clock(outcome, step, shortest);
-        compare_paces(outcome);
-        compare_nodes();
-        if (outcome == Outcome::made) compare_memories(rows);
-        if (outcome == Outcome::made || outcome == Outcome::stood_still) compare_state();
-        return outcome;
-    }
-
-    // What the other stages of a try find.
-    void begin_on_gpu(double step, bool damps) {
-        const cpu::StepSystem<double>& solved = reference_.system;
-        std::vector<StepRow> rows;
-        std::vector<glm::vec4> slips, loads, displacements;
-        for (const cpu::ContactRow<double>& row : solved.rows) {
-            rows.push_back(end_row(row));
-            slips.emplace_back(cpu::relative<double>(row, solved.displacements), row.limit);
-        }
-        for (std::size_t n = 0; n < solved.inertia.size(); ++n) {
-            loads.emplace_back(glm::vec3(0.0f), solved.inertia[n]);
-            displacements.emplace_back(solved.displacements[n], 0.0);
-        }
-        std::vector<BodyPace> paces = read(state_.paces.values);
-        for (std::size_t o = 0; o < paces.size(); ++o) {
-            const ModelObject& body = model_.objects[o];
-            const StartMomenta momenta = momenta_of(model_, body, reference_.from);
-            paces[o].past = static_cast<float>(reference_.scheme.of(o).past);
-            paces[o].is_held = reference_.islands.are_held[o];
-            paces[o].velocity = glm::vec4(reference_.islands.velocities[o], reference_.islands.masses[o]);
-            paces[o].momentum = glm::vec4(momenta.momentum, 0.0);
-            paces[o].angular = glm::vec4(momenta.angular, 0.0);
-        }
-        state_.paces.values.upload(paces);
-        system_.elastic.linearise(buffers_, state_.from, static_cast<float>(1.0 / step));
-        gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::buffer_update);
-        system_.loads().upload(loads);
-        system_.displacements().upload(std::vector<glm::vec4>(loads.size(), glm::vec4(0.0f)));
-        system_.set_rows(rows, reference_.islands.of_bodies);
-        system_.solve(state_.from);
-        gl::barrier(gl::Barrier::buffer_update);
-        system_.displacements().upload(displacements);
-        system_.buffers().slips.values.upload(slips);
-        clock_.step = static_cast<float>(step);
-        clock_.last_step = static_cast<float>(reference_.scheme.last_step());
-        clock_.damps = damps ? 1 : 0;
-        clock_.has_past = reference_.has_past ? 1 : 0;
-        clock_.goes_on = 1;
-        clock_.is_over = 0;
-        state_.clock.upload(std::vector<StepClock>{clock_});
-    }
-
-    void compare_clock(Outcome outcome, double step, double shortest) {
-        const StepClock now = read(state_.clock)[0];
-        const bool is_made = outcome == Outcome::made || outcome == Outcome::stood_still;
-        error_.fail_if(now.goes_on != (is_made ? 1u : 0u) || now.made != clock_.made + (is_made ? 1u : 0u));
-        error_.fail_if(now.damps != (outcome == Outcome::damped ? 1u : 0u));
-        error_.fail_if((now.is_guarded != 0) != reference_.is_guarded);
-        if (std::isfinite(reference_.gained)) {
-            error_.add(static_cast<double>(now.gained), reference_.gained, 1e-3);
-        } else {
-            error_.fail_if(!std::isinf(now.gained));
-        }
-        const double left = static_cast<double>(clock_.left) - (is_made ? step : 0.0);
-        error_.add(static_cast<double>(now.left), left, 1e-6);
-        error_.add(static_cast<double>(now.step), outcome == Outcome::divided ? 0.5 * step : step, 1e-8);
-        if (is_made) {
-            error_.add(static_cast<double>(now.longest), 2.0 * step, 1e-8);
-            error_.add(static_cast<double>(now.last_step), step, 1e-8);
-            error_.fail_if((now.is_over != 0) == (left > 0.5 * shortest));
-        }
-        clock_ = now;
-        if (!(clock_.left > 0.0f)) clock_.left = static_cast<float>(kStepSize);
-    }
-
-    void compare_paces(Outcome outcome) {
-        const std::vector<BodyPace> paces = read(state_.paces.values);
-        StateReader reader(reference_.paces);
-        const auto expected = reader.take<std::uint8_t>(model_.body_count()),
-                   struck = reader.take<std::uint8_t>(model_.body_count());
-        for (std::size_t o = 0; o < expected.size(); ++o) {
-            was_struck_ = was_struck_ || struck[o] != 0;
-            error_.fail_if(paces[o].pace != expected[o]);
-            if (outcome == Outcome::made || outcome == Outcome::stood_still)
-                error_.fail_if(paces[o].is_struck != struck[o]);
-        }
-    }
-
-    void compare_nodes() {
-        const std::vector<glm::vec4> positions = read(state_.from.positions),
-                                     velocities = read(state_.from.velocities);
-        for (std::size_t n = 0; n < positions.size(); ++n) {
-            const glm::dvec4 &x = reference_.from.positions[n], &v = reference_.from.velocities[n];
-            error_.add(glm::dvec3(positions[n]), glm::dvec3(x), 2e-6);
-            error_.add(glm::dvec3(velocities[n]), glm::dvec3(v), 2e-4);
-            error_.fail_if(positions[n].w != static_cast<float>(x.w));
-            error_.fail_if(velocities[n].w != static_cast<float>(v.w));
-        }
-    }
-
-    void compare_memories(const std::vector<cpu::ContactRow<double>>& rows) {
-        const std::vector<PlaneMemory> memories = read(state_.plane_memories);
-        std::vector<std::uint8_t> are_known(memories.size());
-        for (const cpu::ContactRow<double>& row : rows) {
-            const std::size_t at = row.plane() * model_.body_node_count() + row.nodes[0];
-            are_known[at] = 1;
-            error_.add(static_cast<double>(memories[at].reach), row.reach, 1e-5 * row.reach);
-            error_.add(static_cast<double>(memories[at].ease), row.ease, 1e-7);
-        }
-        for (std::size_t k = 0; k < memories.size(); ++k)
-            if (are_known[k] == 0) error_.fail_if(memories[k].reach != 0.0f);
-        // Of friction: key, object, other, hold, limit, reach, ease each.
-        struct Memory {
-            std::uint64_t key;
-            std::uint32_t object, other;
-            glm::dvec3 hold;
-            double limit, reach, ease;
-        };
-        StateReader reader(reference_.rows);
-        for (const Memory& memory : reader.take<Memory>(reader.take<std::size_t>())) {
-            const std::size_t plane = memory.key >> 31 & 0x7FFFFFFFu, node = memory.key & 0x7FFFFFFFu;
-            const PlaneMemory& actual = memories[plane * model_.body_node_count() + node];
-            const double bound = 1e-3 * (1.0 + memory.limit);
-            error_.add(static_cast<double>(actual.hold.w), memory.limit, bound);
-            error_.add(glm::dvec3(actual.hold), memory.hold, bound);
-        }
-    }
-
-    void compare_state() {
-        struct Rates {
-            glm::dvec3 linear, angular;
-        };
-        StateReader schemes(reference_.scheme);
-        schemes.take<double>();
-        const auto accelerations = schemes.take<glm::dvec3>(schemes.take<std::size_t>());
-        const auto rates = schemes.take<Rates>(model_.body_count());
-        const std::vector<glm::vec4> actual = read(state_.accelerations.values);
-        double most = 10.0;
-        for (const glm::dvec3& a : accelerations) most = std::max(most, glm::length(a));
-        for (std::size_t n = 0; n < accelerations.size(); ++n)
-            error_.add(glm::dvec3(actual[n]), accelerations[n], 2e-3 * most);
-        const std::vector<BodyPace> paces = read(state_.paces.values);
-        const std::vector<BodyEnergy> energies = read(end_.energies());
-        StateReader accounts(reference_.energy);
-        const auto contacts = accounts.take<double>(model_.body_count()),
-                   debts = accounts.take<double>(model_.body_count());
-        for (std::size_t o = 0; o < model_.body_count(); ++o) {
-            const bool is_free = reference_.system.rigid.is_free(o);
-            const double force = model_.objects[o].mass * (10.0 + 1e-3 * most);
-            if (is_free) {
-                error_.add(glm::dvec3(paces[o].force), rates[o].linear, 1e-3 * force);
-                error_.add(glm::dvec3(paces[o].moment), rates[o].angular, 1e-3 * force);
-            }
-            const double energy = reference_.energy.after()[o];
-            const double bound = std::isfinite(energy) ? 2e-5 * (1.0 + std::abs(energy)) : 2e-5;
-            if (paces[o].is_struck == 0)
-                error_.add(energies[o].elastic + energies[o].kinetic + energies[o].potential, energy, bound);
-            error_.add(energies[o].contacts, contacts[o], bound);
-            error_.add(energies[o].debt, debts[o], bound);
-        }
-        compare_meetings();
-    }
-
-    void compare_meetings() {
-        struct Meeting {
-            double speed, time, energy, size;
-            glm::dvec3 impulse, arm, held, pressing;
-        };
-        std::vector<double> actual = read(end_.meetings());
-        StateReader reader(reference_.restitution);
-        const auto count = reader.take<std::size_t>();
-        const std::size_t objects = model_.objects.size();
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto first = reader.take<std::size_t>(), object = reader.take<std::size_t>();
-            const auto meeting = reader.take<Meeting>();
-            double* const at = &actual[((first - objects) * objects + object) * end_sums::kMeeting];
-            const double bound = 1e-3 * (0.1 + meeting.size);
-            error_.add(at[end_sums::kMetTime], meeting.time, 1e-7);
-            error_.add(at[end_sums::kMetSpeed], meeting.speed, 1e-3);
-            error_.add(at[end_sums::kMetEnergy], meeting.energy, 1e-3 * (1.0 + std::abs(meeting.energy)));
-            error_.add(at[end_sums::kMetSize], meeting.size, bound);
-            for (int i = 0; i < 3; ++i) {
-                error_.add(at[end_sums::kMetImpulse + static_cast<unsigned>(i)], meeting.impulse[i], bound);
-                error_.add(at[end_sums::kMetArm + static_cast<unsigned>(i)], meeting.arm[i], bound);
-            }
-            at[end_sums::kMetTime] = 0.0;
-        }
-        for (std::size_t m = 0; m < actual.size() / end_sums::kMeeting; ++m)
-            error_.fail_if(actual[m * end_sums::kMeeting + end_sums::kMetTime] != 0.0);
-    }
-
-    const EndCase& at_;
-    const Model& model_;
-    gpu::ModelBuffers buffers_;
-    ContactSurface surface_;
-    gpu::StepState state_;
-    gpu::StepSystem system_;
-    gpu::PartEnd end_;
-    EndReference reference_;
-    cpu::Pulls<double> pulls_;
-    std::optional<gpu::SumLoads> loads_;
-    StepClock clock_{};
-    bool was_struck_ = false, was_guarded_ = false;
-    WorstError error_;
-};
 
 const ColliderDescription kFloor{.shape = PlaneCollider{{0.0, 1.0, 0.0}, 0.0}, .friction = 0.4};
 
@@ -542,7 +80,7 @@ std::vector<PartChange> parts(int count, const PartChange& part = {}) {
 Scenario scenario(std::string name, std::function<EndCase()> make) {
     return {std::move(name), [make = std::move(make)] {
                 const EndCase at = make();
-                return EndOfParts(at).run();
+                return end_error(at);
             }};
 }
 
@@ -558,7 +96,11 @@ Scenarios part_end_scenarios() {
     add("lies_still", [] {
         return EndCase{two_blocks({.place = {0, 0.004, 0}, .youngs_modulus = 1e6}), parts(12)};
     });
-    add("what_is_owed_is_paid", [=] { return EndCase{two_blocks(falling), parts(3, {.noise = 0.3})}; });
+    add("what_is_owed_is_paid", [=] {
+        Block soft = falling;
+        soft.youngs_modulus = 300.0;
+        return EndCase{two_blocks(soft), parts(3, {.noise = 0.1})};
+    });
     add("is_made_again_with_damps_and_shorter", [] {
         const Block stiff{.place = {0, 0.2, 0}, .velocity = {0.1, 0.0, 0.0}, .youngs_modulus = 1e8};
         std::vector<PartChange> changes = parts(3);
@@ -584,8 +126,17 @@ Scenarios part_end_scenarios() {
     });
     add("is_guarded_and_stopped", [=] {
         std::vector<PartChange> changes = parts(4);
-        changes[1].noise = 6.0;
-        return EndCase{two_blocks(falling), changes, 0.0, false, {}, true, true};
+        changes[0].push = {0.0, -3.0, 0.0};
+        Block soft = falling;
+        soft.youngs_modulus = 300.0;
+        return EndCase{two_blocks(soft), changes, 0.0, false, {}, true, true};
+    });
+    add("is_stopped_without_a_contact", [=] {
+        std::vector<PartChange> changes = parts(3);
+        changes[0].step = 1e-4;  // as short as may be: it is made, whatever it gains
+        changes[0].push = {20.0, -250.0, 0.0};
+        const Block block{.place = {0, 0.02, 0}, .velocity = {0.2, 0, 0}};
+        return EndCase{two_blocks(block), changes, 0.0, false, {}, true, true};
     });
     add("goes_on_after_what_is_set", [=] {
         std::vector<PartChange> changes = parts(5, {.noise = 0.01});
@@ -605,9 +156,12 @@ Scenarios part_end_scenarios() {
     });
     for (const char* kind : {"springs_with_a_volume_term", "neo_hookean_with_a_volume_term", "both_damped"})
         add(kind, [=] {
-            for (const ElasticCase& at : elastic_cases())
-                if (at.name == kind)
-                    return EndCase{std::make_shared<const Model>(at.model), parts(3, {.noise = 0.2})};
+            std::vector<ElasticCase> all = elastic_cases();
+            for (ElasticCase& at : all) {
+                if (at.name != kind) continue;
+                shake_nodes(at.model, 0.01f);
+                return EndCase{std::make_shared<const Model>(std::move(at.model)), parts(3, {.noise = 0.2})};
+            }
             return EndCase{};
         });
     return scenarios;
@@ -615,15 +169,11 @@ Scenarios part_end_scenarios() {
 
 bool ends_repeat() {
     const EndCase at{two_blocks({.place = {0, 0.005, 0}, .velocity = {0.5, -1.0, 0.2}}), parts(2)};
-    EndOfParts first(at), second(at);
-    first.run();
-    second.run();
-    return first.velocities() == second.velocities();
+    return velocities_after(at) == velocities_after(at);
 }
 
 void run_end_programs() {
-    const EndCase at{two_blocks({.place = {0, 0.005, 0}, .velocity = {0.5, -1.0, 0.2}}), {}};
-    EndOfParts(at).use_programs();
+    use_programs({two_blocks({.place = {0, 0.005, 0}, .velocity = {0.5, -1.0, 0.2}}), {}});
 }
 
 }  // namespace gelatin::test

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <vector>
+
+#include "gpu/support/end_reference.h"
+#include "model/model.h"
+
+namespace gelatin::test {
+
+constexpr double kStepSize = 1.0 / 60.0;  ///< of steps whose parts are ended [s]
+
+/// What happens to a part before its end, beside its solve.
+struct PartChange {
+    double step = kStepSize / 4.0;  ///< [s]
+    double noise = 0.0;             ///< of displacements, as a speed [m/s]
+    glm::dvec3 push{0.0};           ///< of all nodes, as a speed [m/s]
+    bool breaks = false;            ///< a displacement is no number
+    bool sets_velocities = false;   ///< before it, from outside
+    bool forgets = false;           ///< before it
+    bool goes_on = false;           ///< before it, with velocities of before
+};
+
+/// Parts, one after the other.
+struct EndCase {
+    std::shared_ptr<const Model> model;
+    std::vector<PartChange> parts;
+    double restitution = 0.0;
+    bool is_pulled = false;
+    std::vector<EndReference::Outcome> outcomes = {};  // of tries that have to be among them
+    bool is_struck = false;                            ///< some body has to be struck
+    bool is_guarded = false;                           ///< the guard has to move nodes
+};
+
+/// @return the greatest error over its bound
+double end_error(const EndCase& at);
+std::vector<glm::vec4> velocities_after(const EndCase& at);
+/// All programs of the end of a part are run once.
+void use_programs(const EndCase& at);
+
+}  // namespace gelatin::test
