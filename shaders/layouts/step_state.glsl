@@ -20,8 +20,8 @@ struct StepClock {       // 80 bytes
     uint  row_count;
     uint  dropped_rows;  // for which there was no place
     uint  begun;         // parts of this step of which a try has begun
-    uint  has_changed;   // 1: other nodes are held than in the part before; who has heard of it makes it 0
-    uint  unused;
+    uint  unused_0;
+    uint  unused_1;
 };
 // What a body passes on from part to part, and what its part begins with.
 struct BodyPace {        // 112 bytes
@@ -64,7 +64,7 @@ struct ChunkRows {       // 16 bytes
 // And of a body.
 struct BodyRows {        // 16 bytes
     uint  count;
-    uint  has_changed;   // 1: not as many nodes are held as in the part before
+    uint  unused;
     float nearest;
     float deepest;
 };

@@ -138,7 +138,7 @@ TEST_F(LayoutsTest, StepState) {
            FIELD(StepClock, has_past),    FIELD(StepClock, divides),      FIELD(StepClock, parts),
            FIELD(StepClock, tries),       FIELD(StepClock, made),         FIELD(StepClock, is_guarded),
            FIELD(StepClock, row_count),   FIELD(StepClock, dropped_rows), FIELD(StepClock, begun),
-           FIELD(StepClock, has_changed), FIELD(StepClock, unused)});
+           FIELD(StepClock, unused_0), FIELD(StepClock, unused_1)});
     check("step_state.glsl", "BodyPace", sizeof(BodyPace),
           {FIELD(BodyPace, pace), FIELD(BodyPace, is_struck), FIELD(BodyPace, held_count),
            FIELD(BodyPace, is_held), FIELD(BodyPace, past), FIELD(BodyPace, damping),
@@ -155,7 +155,7 @@ TEST_F(LayoutsTest, StepState) {
           {FIELD(ChunkRows, count), FIELD(ChunkRows, first), FIELD(ChunkRows, nearest),
            FIELD(ChunkRows, deepest)});
     check("step_state.glsl", "BodyRows", sizeof(BodyRows),
-          {FIELD(BodyRows, count), FIELD(BodyRows, has_changed), FIELD(BodyRows, nearest),
+          {FIELD(BodyRows, count), FIELD(BodyRows, unused), FIELD(BodyRows, nearest),
            FIELD(BodyRows, deepest)});
 }
 

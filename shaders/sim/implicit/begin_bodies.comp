@@ -58,7 +58,6 @@ void main() {
     vec3 velocity = vec3(0.0);
     if (!is_driven && mass > 0.0) velocity = held > 0u ? sums.carried.xyz / sums.carried.w : sums.momentum.xyz / mass;
     if (paces[o].held_count != held) {
-        rows.has_changed = 1u;
         paces[o].held_count = held;
         paces[o].is_struck = 1u;
     }

@@ -108,7 +108,7 @@ void main() {
             now.damps = 0u;
             now.goes_on = 0u;
         }
-        bool any_past = false, any_change = false;
+        bool any_past = false;
         if (now.goes_on != 0u) {
             for (uint o = gl_LocalInvocationID.x; o < body_count; o += kLanes)
                 any_past = choose_scheme(o, now) || any_past;
@@ -117,9 +117,6 @@ void main() {
             now.dropped_rows = max(now.dropped_rows, count - now.row_count);
             now.has_past = max_over_group(any_past ? 1.0 : 0.0) > 0.0 ? 1u : 0u;
         }
-        for (uint o = gl_LocalInvocationID.x; o < body_count; o += kLanes)
-            any_change = any_change || texelFetch(body_rows, int(o)).y != 0u;
-        if (max_over_group(any_change ? 1.0 : 0.0) > 0.0) now.has_changed = 1u;
         if (gl_LocalInvocationID.x == 0u) clock[0] = now;
     }
     number_islands(now.goes_on != 0u);

@@ -191,7 +191,6 @@ private:
             pace.pace = case_.paces[o];
             pace.is_struck = case_.struck[o] != 0 || pace.held_count > 0 ? 1 : 0;
             paces_.struck()[o] = static_cast<std::uint8_t>(pace.is_struck);
-            result.clock.has_changed |= pace.held_count > 0 ? 1u : 0u;
             pace.is_held = islands_.are_held[o];
             pace.velocity = glm::vec4(islands_.velocities[o], islands_.masses[o]);
             add_momenta(o, pace);
