@@ -38,6 +38,8 @@ const uint kStartArm = 13u;
 const uint kStartKinetic = 16u;
 const uint kStartPotential = 17u;
 const uint kPartSums = 18u;
+// Of a body, over its chunks: both.
+const uint kObjectSums = 40u;
 // Of what presses a body on a collider with restitution: force, force n, its moment, force times the arm.
 const uint kPressed = 0u;
 const uint kPressedForce = 1u;

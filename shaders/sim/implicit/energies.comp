@@ -91,7 +91,8 @@ void prepare(uint object) { change = changes[object]; }
 void change_velocity(uint n, dvec3 r) {
     vec3 place = texelFetch(positions, int(n)).xyz;
     vec3 wanted = texelFetch(start_positions, int(n)).xyz + texelFetch(displacements, int(n)).xyz;
-    end_velocities[n].xyz += (place - wanted) / clock[0].step + change.velocity.xyz + cross(change.spin.xyz, place - change.center.xyz);
+    end_velocities[n].xyz +=
+        (place - wanted) / clock[0].step + change.velocity.xyz + cross(change.spin.xyz, place - change.center.xyz);
 }
 #else
 void prepare(uint object) {}
@@ -104,7 +105,8 @@ layout(std430) readonly buffer GuardSums { double guard_sums[]; };  // by chunk
 bool has_to(uint object) {
     bool any = false;
     uint end = texelFetch(chunk_starts, int(object) + 1).x;
-    for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) any = any || guard_sums[c * kGuardSums + kHeldBack] > 0.0LF;
+    for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c)
+        any = any || guard_sums[c * kGuardSums + kHeldBack] > 0.0LF;
     return any && clock[0].goes_on != 0u && clock[0].is_over == 0u;
 }
 #elif defined(STOP)

@@ -9,21 +9,12 @@
 
 uniform usamplerBuffer chunk_starts;  // of each object, and the end
 uniform uint object_count;
-layout(std430) readonly buffer EnergySums { double energy_sums[]; };  // by chunk
-layout(std430) readonly buffer PartSums { double part_sums[]; };      // by chunk
+layout(std430) readonly buffer ObjectSums { double object_sums[]; };
 
 uint first_chunk(uint o) { return texelFetch(chunk_starts, int(o)).x; }
 
-double energy_sum(uint o, uint k) {
-    double sum = 0.0LF;
-    for (uint c = first_chunk(o); c < first_chunk(o + 1u); ++c) sum += energy_sums[c * kEnergySums + k];
-    return sum;
-}
-double part_sum(uint o, uint k) {
-    double sum = 0.0LF;
-    for (uint c = first_chunk(o); c < first_chunk(o + 1u); ++c) sum += part_sums[c * kPartSums + k];
-    return sum;
-}
+double energy_sum(uint o, uint k) { return object_sums[o * kObjectSums + k]; }
+double part_sum(uint o, uint k) { return object_sums[o * kObjectSums + kEnergySums + k]; }
 
 void find_motion(uint o, out double motion[kMotionSums]) {
     for (uint k = 0u; k < kMotionSums; ++k) motion[k] = energy_sum(o, k);

@@ -83,7 +83,8 @@ void main() {
         if (placed.w == 0.0) continue;
         end.xyz = from + frame + placed.xyz;
         end_positions[n] = end;
-        dvec3 change = dvec3((end.xyz - wanted) / clock[0].step) / double(end.w), moment = cross(dvec3(end.xyz) - dvec3(center), change);
+        dvec3 change = dvec3((end.xyz - wanted) / clock[0].step) / double(end.w);
+        dvec3 moment = cross(dvec3(end.xyz) - dvec3(center), change);
         sums[kHeldBack] += 1.0LF;
         if (end.xyz != wanted) sums[kStopped] += 1.0LF;
         for (int k = 0; k < 3; ++k) {

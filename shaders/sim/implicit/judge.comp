@@ -41,8 +41,7 @@ uniform float slow;  // [m/s]
 
 // 0: moving; 1: calm, hardly vibrates, and touches others but hardly goes towards or away from them; 2: still, hardly moves at all.
 uint pace_of(uint o, float mass) {
-    float pressing = float(part_sum(o, kPressing)), fastest = 0.0;
-    for (uint c = first_chunk(o); c < first_chunk(o + 1u); ++c) fastest = max(fastest, float(part_sums[c * kPartSums + kGreatestSpeed]));
+    float pressing = float(part_sum(o, kPressing)), fastest = float(part_sum(o, kGreatestSpeed));
     float vibrations = sqrt(float(part_sum(o, kSquares)) / mass);
     bool is_calm = pressing > 0.0 && vibrations < slow && float(part_sum(o, kApproach)) < slow * pressing;
     return !is_calm ? 0u : fastest < slow ? 2u : 1u;

@@ -57,7 +57,8 @@ bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], Bo
         return false;
     }
     double mass = double(paces[o].velocity.w);
-    dvec3 momentum = triple(motion, kMomentum), turning = dvec3(energy_sum(o, kTurning), energy_sum(o, kTurning + 1u), energy_sum(o, kTurning + 2u));
+    dvec3 momentum = triple(motion, kMomentum);
+    dvec3 turning = dvec3(energy_sum(o, kTurning), energy_sum(o, kTurning + 1u), energy_sum(o, kTurning + 2u));
     Impacting body;
     body.size = size;
     body.now = rigid_part_of(motion);

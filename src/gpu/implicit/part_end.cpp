@@ -35,6 +35,7 @@ PartEnd::Programs::Programs(const Model& model)
       finish(gl::Program::compute("sim/implicit/finish.comp", SumLoads::defines(model))),
       keep(energies_program(model, {"KEEP"})),
       measure(gl::Program::compute("sim/implicit/measure_part.comp", SumLoads::defines(model))),
+      sum_chunks(gl::Program::compute("sim/implicit/sum_chunks.comp")),
       judge(gl::Program::compute("sim/implicit/judge.comp")),
       guard(gl::Program::compute("sim/implicit/guard_planes.comp", ModelBuffers::collider_defines(model))),
       measure_guarded(energies_program(model, {"GUARDED"})),
@@ -46,8 +47,8 @@ PartEnd::Programs::Programs(const Model& model)
       begin_energies(gl::Program::compute("sim/implicit/begin_energies.comp")) {}
 
 std::vector<const gl::Program*> PartEnd::Programs::all() const {
-    return {&finish_sums,   &finish, &keep,   &measure, &judge,         &guard,         &measure_guarded,
-            &judge_guarded, &stop,   &settle, &commit,  &find_energies, &begin_energies};
+    return {&finish_sums,     &finish,        &keep, &measure, &sum_chunks, &judge,         &guard,
+            &measure_guarded, &judge_guarded, &stop, &settle,  &commit,     &find_energies, &begin_energies};
 }
 
 PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system)
@@ -65,6 +66,7 @@ PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system)
       guard_sums_(zeros(end_sums::kGuardSums * chunk_count_)),
       pressed_sums_(zeros(end_sums::kPressedSums * chunk_count_ * model.colliders.size())),
       meetings_(zeros(end_sums::kMeeting * object_count_ * model.colliders.size())),
+      object_sums_(zeros(end_sums::kObjectSums * object_count_)),
       energies_(std::vector<BodyEnergy>(object_count_)),
       changes_(std::vector<BodyChange>(object_count_)) {
     for (const ModelObject& object : model.objects) nodes_.push_back(object.nodes);
@@ -88,6 +90,7 @@ void PartEnd::bind_buffers(const Model& model) const {
         bind("GuardSums", guard_sums_);
         bind("PressedSums", pressed_sums_);
         bind("Meetings", meetings_);
+        bind("ObjectSums", object_sums_);
         bind("BodyEnergies", energies_);
         bind("BodyChanges", changes_);
         bind("springs", springs_);
@@ -152,12 +155,15 @@ void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* 
         const TimedStage part(timer, "advance_nodes.finish");
         for (const gl::Program* program : {&p.finish_sums, &p.finish, &p.keep, &p.measure})
             run(*program, chunk_count_);
+        run(p.sum_chunks, object_count_);
         run(p.judge, 1);
     }
     const TimedStage part(timer, "advance_nodes.guard");
     for (const gl::Program* program : {&p.guard, &p.measure_guarded}) run(*program, chunk_count_);
+    run(p.sum_chunks, object_count_);
     run(p.judge_guarded, 1);
     run(p.stop, chunk_count_);
+    run(p.sum_chunks, object_count_);
     run(p.settle, 1);
     run(p.commit, chunk_count_);
 }

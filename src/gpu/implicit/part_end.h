@@ -51,8 +51,8 @@ private:
     struct Programs {
         explicit Programs(const Model& model);
         std::vector<const gl::Program*> all() const;
-        gl::Program finish_sums, finish, keep, measure, judge, guard, measure_guarded, judge_guarded, stop,
-            settle, commit, find_energies, begin_energies;
+        gl::Program finish_sums, finish, keep, measure, sum_chunks, judge, guard, measure_guarded,
+            judge_guarded, stop, settle, commit, find_energies, begin_energies;
     };
     void bind_buffers(const Model& model) const;
     void bind_nodes() const;
@@ -68,6 +68,7 @@ private:
     gl::TexelTable<glm::uvec4> elements_;
     gl::Buffer<double> finish_sums_, energy_sums_, part_sums_, guard_sums_;  // by chunk
     gl::Buffer<double> pressed_sums_, meetings_;                             // by collider
+    gl::Buffer<double> object_sums_;
     gl::Buffer<BodyEnergy> energies_;
     gl::Buffer<BodyChange> changes_;
 };
