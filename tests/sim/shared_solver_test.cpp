@@ -30,7 +30,7 @@ SharedSolver make_solver(const std::shared_ptr<const Model>& model, int iteratio
     return {model, collision, descent};
 }
 
-std::uint32_t overlaps_of(const Model& model, const SharedSolver& solver) {
+std::uint32_t overlaps_of(const Model& model, SharedSolver& solver) {
     const std::vector<glm::vec4> positions = solver.read_state().positions;
     return test::count_overlaps(model, std::vector<cpu::Vec4<float>>(positions.begin(), positions.end()));
 }

@@ -19,7 +19,7 @@ void main() {
     uint end = texelFetch(chunk_starts, int(o) + 1).x;
     for (uint c = texelFetch(chunk_starts, int(o)).x; c < end; ++c) {
         double own = k < kEnergySums ? energy_sums[c * kEnergySums + k] : part_sums[c * kPartSums + k - kEnergySums];
-        sum = k == kEnergySums + kFastest ? max(sum, own) : sum + own;
+        sum = k == kEnergySums + kGreatestSpeed ? max(sum, own) : sum + own;
     }
     object_sums[o * kObjectSums + k] = sum;
 }
