@@ -52,7 +52,7 @@ Sums sums_of(const Model& model, Solver& solver, std::size_t object) {
     return sums_of(model, solver, model.objects[object].nodes);
 }
 
-Sums sums_of_all(const Model& model, const Solver& solver) {
+Sums sums_of_all(const Model& model, Solver& solver) {
     return sums_of(model, solver, {0, model.body_node_count()});
 }
 

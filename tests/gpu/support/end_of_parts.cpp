@@ -56,7 +56,9 @@ public:
           buffers_(model_),
           surface_(make_contact_surface(model_, {})),
           state_(model_, surface_),
-          system_(model_, std::max<std::size_t>(model_.colliders.size() * model_.body_node_count(), 1)),
+          system_(model_, gpu::RowCapacity{std::max<std::size_t>(
+                                               model_.colliders.size() * model_.body_node_count(), 1),
+                                           model_.body_count()}),
           end_(model_, state_, system_),
           reference_(at.model, at.restitution),
           pulls_(model_.node_count()) {
@@ -205,10 +207,16 @@ private:
             paces[o].velocity.w = static_cast<float>(reference_.islands.masses[o]);
         }
         state_.paces.values.upload(paces);
-        system_.elastic.linearise(buffers_, state_.from, static_cast<float>(1.0 / step));
+        clock_.step = static_cast<float>(step);
+        state_.clock.upload(std::vector<StepClock>{clock_});
+        std::vector<float> times;
+        for (const glm::vec4& velocity : model_.velocities) times.push_back(velocity.w);
+        const gl::TexelTable<float> damping_times(times, gl::TexelFormat::r32f);
+        system_.elastic.linearise(buffers_, state_.from, damping_times.texels(), state_.clock);
         system_.loads().upload(loads);
         system_.displacements().upload(std::vector<glm::vec4>(loads.size(), glm::vec4(0.0f)));
         system_.set_rows(rows, reference_.islands.of_bodies);
+        system_.begin_bodies(state_.from);
         system_.solve(state_.from);
         gl::barrier(gl::Barrier::buffer_update);
         system_.displacements().upload(displacements);
