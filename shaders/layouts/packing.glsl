@@ -6,3 +6,4 @@ const uint kFacesAWord = 16u;          // of the Face Collision Result, two bits
 const uint kQueriesAGroup = 4096u;     // of proximities, that one work group of sum_proximities sums up
 const uint kBinShift = 19u;            // of values' bits in the histogram of tet values
 const uint kBins = 4096u;              // of that histogram
+const uint kChunksOfSmallIsland = 4u;  // of up to 256 nodes: what a work group solves by itself in shared memory

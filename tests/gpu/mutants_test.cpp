@@ -49,6 +49,7 @@ INSTANTIATE_MUTANTS(Drive, kDriveMutants,
 INSTANTIATE_MUTANTS(Pulls, kPullMutants, pull_scenarios());
 INSTANTIATE_MUTANTS(ElasticSystem, kElasticSystemMutants, elastic_system_scenarios());
 INSTANTIATE_MUTANTS(StepSystem, kStepSystemMutants, step_system_scenarios());
+INSTANTIATE_MUTANTS(SmallIslands, kSmallIslandMutants, small_island_scenarios());
 INSTANTIATE_MUTANTS(PartStart, kPartStartMutants, part_start_scenarios());
 INSTANTIATE_MUTANTS(Matching, kMatchingMutants, matching_scenarios());
 INSTANTIATE_MUTANTS(NeoHookean, kNeoHookeanMutants,

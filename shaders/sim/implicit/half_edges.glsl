@@ -11,7 +11,10 @@ mat3x4 fetch_matrix(uint half_edge) {
 }
 
 #ifdef PRODUCTS
+#ifndef FIELD_AT
 uniform samplerBuffer displacements;  // d, xyz [m]
+#define FIELD_AT(n) texelFetch(displacements, int(n)).xyz
+#endif
 
 // K d: what the forces of elements on a node change by as nodes move, reversed [N].
 vec3 stiffness_times(uint n, vec3 own) {
@@ -20,7 +23,7 @@ vec3 stiffness_times(uint n, vec3 own) {
     for (uint k = texelFetch(half_edge_starts, int(n / kSlice)).x + n % kSlice; k < end; k += kSlice) {
         uvec2 half_edge = texelFetch(half_edges, int(k)).xy;
         if (half_edge.x == kNone) break;
-        vec3 change = own - texelFetch(displacements, int(half_edge.y)).xyz;
+        vec3 change = own - FIELD_AT(half_edge.y);
         mat3 matrix = mat3(fetch_matrix(half_edge.x));
         sum += half_edge.x % 2u == 0u ? matrix * change : change * matrix;
     }

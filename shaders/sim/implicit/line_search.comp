@@ -11,10 +11,13 @@ layout(std430) readonly buffer States { SolveState states[]; };
 layout(std430) readonly buffer StepSums { vec2 step_sums[]; };  // by chunk of nodes [J]
 layout(std430) writeonly buffer Parts { float parts[]; };       // by island
 
+vec3 change_of(uint r) { return relative(rows[r], steps); }
+
 void main() {
     uint i = group_index(), lane = gl_LocalInvocationID.x;
     if (i >= object_count) return;
     StepIsland island = fetch_island(i);
+    if (is_small(island)) return;
     SolveState state = states[state_before(i)];
     if (!has_rows(island) || state.made == 0u) {
         if (lane == 0u) parts[i] = has_rows(island) ? 0.0 : 1.0;
@@ -24,11 +27,9 @@ void main() {
     for (uint k = island.first_chunk + lane; k < island.chunk_end; k += kLanes)
         sum += step_sums[texelFetch(island_chunks, int(k)).x];
     sum = sum_over_group(vec4(sum, 0.0, 0.0)).xy;
-    for (uint r = island.first_row + lane; r < island.row_end; r += kLanes)
-        changes[r] = vec4(relative(rows[r], steps), 0.0);
     float part = line_search(island, sum.x, sum.y);
     // Those of a body with itself have not followed its rigid motion so far.
     for (uint r = island.first_row + lane; r < island.row_end; r += kLanes)
-        slips[r].xyz = relative(rows[r], displacements) + part * changes[r].xyz;
+        slips[r].xyz = relative(rows[r], displacements) + part * change_of(r);
     if (lane == 0u) parts[i] = part;
 }

@@ -1,17 +1,18 @@
 // How far along a direction the objective falls, of an island whose work group this is, and by at most all of it.
 // CPU twin: gelatin::cpu::IslandRows::line_search.
 #include "sim/implicit/group_sums.glsl"
+#include "sim/implicit/row_list.glsl"
 #include "sim/implicit/rows.glsl"
 
-layout(std430) readonly buffer Rows { StepRow rows[]; };
 layout(std430) coherent buffer Slips { vec4 slips[]; };  // s [m]; w: limit of friction [N]
-layout(std430) buffer Changes { vec4 changes[]; };       // of slips; only who writes one reads it [m]
+
+vec3 change_of(uint r);  // of a slip, along all of the direction; of a kernel [m]
 
 // Minus the gradient along the direction [J].
 float fall_at(StepIsland island, float base, float curvature, float t) {
     float sum = 0.0;
     for (uint r = island.first_row + gl_LocalInvocationID.x; r < island.row_end; r += kLanes) {
-        vec3 change = changes[r].xyz;
+        vec3 change = change_of(r);
         sum += dot(change, force_at(rows[r], slips[r].xyz + t * change, slips[r].w));
     }
     return sum_over_group(sum) + base - t * curvature;

@@ -9,12 +9,14 @@ uniform usamplerBuffer pairs;            // StepPair
 uniform usamplerBuffer row_chunks;       // first row, end
 uniform usamplerBuffer coupling_starts;  // of each object, and the end
 uniform usamplerBuffer couplings;        // 2 pair + side
-uniform samplerBuffer arms;              // of both sides of each row [m]
 layout(std430) coherent buffer RowSums { vec4 row_sums[]; };    // by chunk of rows, kMatrixSums each
 layout(std430) coherent buffer PairSums { vec4 pair_sums[]; };
-layout(std430) buffer Inverses { BodyInverse body_inverses[]; };
 
-RowStiffness row_stiffness(uint r);  // of a kernel
+// Of a kernel.
+RowStiffness row_stiffness(uint r);
+vec3 arm_at(uint r, uint side);                    // of a row [m]
+uint body(uint k);                                 // the object of one of the island's bodies
+void keep_inverse(uint k, BodyInverse inverse_);
 
 // What invocations wrote is visible to all of the group.
 void wait_for_group() {
@@ -23,8 +25,6 @@ void wait_for_group() {
 }
 
 mat3 matrix_of(vec3 d, vec3 b) { return mat3(d.x, b.z, b.y, b.z, d.y, b.x, b.y, b.x, d.z); }
-
-vec3 arm_at(uint r, uint side) { return texelFetch(arms, int(2u * r + side)).xyz; }
 
 // m [r]
 mat3 times_cross(mat3 m, vec3 r) {
@@ -72,10 +72,11 @@ mat3 inverse_of(mat3 m) {
     return mat3(solve(terms, vec3(1.0, 0.0, 0.0)), solve(terms, vec3(0.0, 1.0, 0.0)), solve(terms, vec3(0.0, 0.0, 1.0)));
 }
 
-// E_b^-1, of the inertia and the pairs.
-void find_inverse(uint object) {
+// E_b^-1, of the inertia and the pairs; 0 of a body that does not move as a rigid one.
+BodyInverse find_inverse(uint object) {
     vec4 diagonal = texelFetch(bodies, 5 * int(object) + 3);
-    if (!(diagonal.w > 0.0)) return;
+    vec4 no = vec4(0.0);
+    if (!(diagonal.w > 0.0)) return BodyInverse(no, no, no, no, no, no, no, no, no);
     mat3 a = mat3(diagonal.w), b = mat3(0.0), c = matrix_of(diagonal.xyz, texelFetch(bodies, 5 * int(object) + 4).xyz);
     uint end = texelFetch(coupling_starts, int(object) + 1).x;
     for (uint k = texelFetch(coupling_starts, int(object)).x; k < end; ++k) {
@@ -85,9 +86,8 @@ void find_inverse(uint object) {
         c += pair_matrix(coupling / 2u, 3u + side);
     }
     mat3 inverse_a = inverse_of(a), x = inverse_a * b, i = inverse_of(c - transpose(b) * x);
-    body_inverses[object] = BodyInverse(vec4(inverse_a[0], 0.0), vec4(inverse_a[1], 0.0), vec4(inverse_a[2], 0.0),
-                                        vec4(x[0], 0.0), vec4(x[1], 0.0), vec4(x[2], 0.0), vec4(i[0], 0.0),
-                                        vec4(i[1], 0.0), vec4(i[2], 0.0));
+    return BodyInverse(vec4(inverse_a[0], 0.0), vec4(inverse_a[1], 0.0), vec4(inverse_a[2], 0.0), vec4(x[0], 0.0),
+                       vec4(x[1], 0.0), vec4(x[2], 0.0), vec4(i[0], 0.0), vec4(i[1], 0.0), vec4(i[2], 0.0));
 }
 
 // By the rows' tangents: sums of pairs, and inverses of bodies.
@@ -112,5 +112,5 @@ void find_matrix(StepIsland island) {
     }
     sum_by_pair(island, kMatrixSums, 0u);
     for (uint k = island.first_body + gl_LocalInvocationID.x; k < island.body_end; k += kLanes)
-        find_inverse(texelFetch(island_bodies, int(k)).x);
+        keep_inverse(k, find_inverse(body(k)));
 }

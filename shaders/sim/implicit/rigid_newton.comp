@@ -5,6 +5,8 @@ const uint kLanes = 256u;
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/line_search.glsl"
 #include "sim/implicit/rigid_level.glsl"
+#include "sim/implicit/rigid_bodies.glsl"
+#include "sim/implicit/move_nodes.glsl"
 layout(local_size_x = 256) in;
 
 uniform samplerBuffer base_sums;  // ResidualSums of chunks, two texels each: forces of all but rows
@@ -14,7 +16,6 @@ layout(std430) coherent buffer Vectors { BodyMotion vectors[]; };
 const uint kMotion = 0u, kBase = 1u, kForce = 2u, kStep = 3u, kDirection = 4u, kProduct = 5u, kPreconditioned = 6u;
 
 #define FOR_BODIES(island) for (uint k = island.first_body + gl_LocalInvocationID.x; k < island.body_end; k += kLanes)
-uint body(uint k) { return texelFetch(island_bodies, int(k)).x; }
 uint at(uint kind, uint object) { return kind * (object_count + 1u) + object; }
 BodyMotion plus(BodyMotion a, float factor, BodyMotion b) {
     return BodyMotion(a.displacement + factor * b.displacement, a.rotation + factor * b.rotation);
@@ -122,12 +123,13 @@ void find_step(StepIsland island) {
 
 vec3 displaced(BodyMotion motion, vec3 arm) { return motion.displacement.xyz + cross(motion.rotation.xyz, arm); }
 
+vec3 change_of(uint r) {
+    return displaced(vectors[at(kStep, rows[r].other)], arm_at(r, 1u)) -
+           displaced(vectors[at(kStep, rows[r].object)], arm_at(r, 0u));
+}
+
 // As far along it as the objective falls.
 void make_step(StepIsland island) {
-    for (uint r = island.first_row + gl_LocalInvocationID.x; r < island.row_end; r += kLanes)
-        changes[r] = vec4(displaced(vectors[at(kStep, rows[r].other)], arm_at(r, 1u)) -
-                              displaced(vectors[at(kStep, rows[r].object)], arm_at(r, 0u)),
-                          0.0);
     vec4 sums = vec4(0.0);
     FOR_BODIES(island) {
         BodyMotion step = vectors[at(kStep, body(k))];
@@ -142,7 +144,7 @@ void make_step(StepIsland island) {
         vectors[at(kBase, body(k))] = plus(vectors[at(kBase, body(k))], -part, resistance(body(k), step));
     }
     for (uint r = island.first_row + gl_LocalInvocationID.x; r < island.row_end; r += kLanes)
-        slips[r].xyz += part * changes[r].xyz;
+        slips[r].xyz += part * change_of(r);
 }
 
 // @return whether any moves as a rigid one
@@ -168,11 +170,7 @@ void set_limits(StepIsland island) {
         slips[r].w = rows[r].friction * pressing(rows[r], slips[r].xyz);
 }
 
-void main() {
-    uint i = group_index();
-    if (i >= object_count) return;
-    StepIsland island = fetch_island(i);
-    if (!begin_bodies(island) || !has_rows(island)) return;
+void balance(StepIsland island) {
     for (uint round_ = 0u; round_ < kMostRounds; ++round_) {
         // Twice where limits of friction change between; one loop, so that it is compiled once.
         bool is_near = false;
@@ -187,5 +185,19 @@ void main() {
         find_matrix(island);
         find_step(island);
         make_step(island);
+    }
+}
+
+void main() {
+    uint i = group_index();
+    if (i >= object_count) return;
+    StepIsland island = fetch_island(i);
+    if (!begin_bodies(island) || !has_rows(island)) return;
+    balance(island);
+    if (!is_small(island)) return;  // move_bodies.comp moves its nodes
+    wait_for_group();
+    for (uint k = island.first_chunk; k < island.chunk_end; ++k) {
+        uvec4 chunk = texelFetch(chunks, int(texelFetch(island_chunks, int(k)).x));
+        move_nodes(chunk, vectors[at(kMotion, chunk.x)]);
     }
 }

@@ -1,14 +1,19 @@
 // What rows exert on nodes. Without ROWS there are none.
 #ifdef ROWS
+#include "sim/implicit/row_list.glsl"
 #include "sim/implicit/rows.glsl"
-layout(std430) readonly buffer Rows { StepRow rows[]; };
 uniform usamplerBuffer entry_starts;  // of each node, and the end
 uniform usamplerBuffer row_entries;   // 4 row + place of the node in it
-uniform samplerBuffer tangents;       // StepTangent, three texels each
 
-RowStiffness fetch_stiffness(uint r) {
+#ifdef MAKES_TANGENTS
+RowStiffness row_stiffness(uint r);  // of a kernel
+#else
+uniform samplerBuffer tangents;  // StepTangent, three texels each
+
+RowStiffness row_stiffness(uint r) {
     return RowStiffness(texelFetch(tangents, 3 * int(r) + 1).xyz, texelFetch(tangents, 3 * int(r) + 2).xyz);
 }
+#endif
 
 vec3 row_value(uint r, StepRow row);  // a force on the second side, of a kernel
 

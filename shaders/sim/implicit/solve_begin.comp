@@ -1,18 +1,14 @@
 // Where a linearisation begins: the step before is made, as far as the objective falls; the residual r with the tangents of rows, the
 // nodes' own blocks, what these make of r, and the sums over chunks that the rigid level needs. FIRST: no step is before.
 // CPU twin: gelatin::cpu::IslandSolve::newton_step. Parity: tests/gpu/implicit/step_system_test.cpp.
-#include "layouts/element_edge.glsl"
-#include "sim/elasticity/node_terms.glsl"
-#include "sim/implicit/solve_system.glsl"
 #ifdef FIRST
 #define PRODUCTS
-#include "sim/implicit/half_edges.glsl"
 #endif
+#include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/node_system.glsl"
 #include "sim/implicit/body_sums.glsl"
-#include "sim/implicit/rows_at_nodes.glsl"
 layout(local_size_x = 64) in;
 
-uniform samplerBuffer element_blocks;                           // NodeBlock, two texels each
 layout(std430) buffer Steps { vec4 steps[]; };                  // [m]
 layout(std430) buffer Bases { vec4 bases[]; };                  // loads - A d, without rows [N]
 layout(std430) writeonly buffer Residuals { vec4 residuals[]; };  // r [N]
@@ -22,15 +18,12 @@ layout(std430) writeonly buffer Sums { ResidualSums sums[]; };
 #ifdef ROWS
 uniform samplerBuffer slips;  // s [m]
 vec3 row_value(uint r, StepRow row) {
-    return texelFetch(tangents, 3 * int(r)).xyz - times(fetch_stiffness(r), texelFetch(slips, int(r)).xyz);
+    return texelFetch(tangents, 3 * int(r)).xyz - times(row_stiffness(r), texelFetch(slips, int(r)).xyz);
 }
 #endif
 
 #ifdef FIRST
-vec3 base_at(uint n, uint island, vec4 load) {
-    vec3 d = texelFetch(displacements, int(n)).xyz;
-    return load.xyz - stiffness_times(n, d) - load.w * d;
-}
+vec3 base_at(uint n, uint island, vec4 load) { return base_of(n, load, texelFetch(displacements, int(n)).xyz); }
 #else
 uniform samplerBuffer parts;          // of each island's step, that it makes
 uniform samplerBuffer products;       // by how much less the base is after the step [N]
@@ -44,28 +37,11 @@ vec3 base_at(uint n, uint island, vec4 load) {
 }
 #endif
 
-// Of K, and of rows.
-NodeTerms block_at(uint n) {
-    NodeTerms block = NodeTerms(vec3(0.0), texelFetch(element_blocks, 2 * int(n)).xyz,
-                                texelFetch(element_blocks, 2 * int(n) + 1).xyz);
-#ifdef ROWS
-    uint end = texelFetch(entry_starts, int(n) + 1).x;
-    for (uint e = texelFetch(entry_starts, int(n)).x; e < end; ++e) {
-        uint entry = texelFetch(row_entries, int(e)).x;
-        float weight = rows[entry / 4u].weights[entry % 4u];
-        RowStiffness k = fetch_stiffness(entry / 4u);
-        block.diagonal += weight * weight * k.diagonal;
-        block.beside += weight * weight * k.beside;
-    }
-#endif
-    return block;
-}
-
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
-    uint island = texelFetch(island_of_object, int(chunk.x)).x;
+    uint island = large_island_of(chunk.x);
     if (island == kNone) {  // what was solved before is forgotten
 #ifdef FIRST
         for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) steps[n] = vec4(0.0);
@@ -84,8 +60,7 @@ void main() {
         if (load.w > 0.0) {
             base = base_at(n, island, load);
             r = base + sum_of_rows(n);
-            NodeTerms block = block_at(n);
-            block.diagonal += load.w;
+            NodeTerms block = block_at(n, load.w);
             blocks[n] = NodeBlock(vec4(block.diagonal, 0.0), vec4(block.beside, 0.0));
             z = solve(block, r);
         }

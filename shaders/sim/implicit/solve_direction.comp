@@ -4,6 +4,7 @@
 const uint kLanes = 64u;
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/group_sums.glsl"
+#include "sim/implicit/solve_state.glsl"
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer preconditioned;  // z [m]
@@ -14,22 +15,17 @@ uniform samplerBuffer body_motions;  // BodyMotion by object, two texels each
 uniform uint is_first;               // of the linearisations
 #else
 layout(std430) readonly buffer Lacks { float lacks[]; };  // r . z by chunk [J]
-uniform uint most_iterations;  // of a linearisation; twice as many without rows
 
-// After an iteration.
-SolveState next_state(SolveState state, StepIsland island) {
-    float lack = 0.0, lacking = 0.0;
+// What the island lacks after an iteration.
+vec2 total_lack(StepIsland island) {
+    vec2 total = vec2(0.0);
     for (uint k = island.first_body + gl_LocalInvocationID.x; k < island.body_end; k += kLanes) {
         uint object = texelFetch(island_bodies, int(k)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
         float of_body = 0.0;
         for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) of_body += lacks[c];
-        lack += of_body;
-        if (!(of_body <= enough_of(object))) lacking += 1.0;
+        total += lack_of(object, of_body);
     }
-    vec2 total = sum_over_group(vec4(lack, lacking, 0.0, 0.0)).xy;
-    uint made = state.made + (state.is_stuck != 0u ? 0u : 1u), most = most_iterations * (has_rows(island) ? 1u : 2u);
-    bool goes_on = state.is_stuck == 0u && total.y > 0.0 && total.x > state.enough && made < most;
-    return SolveState(total.x, goes_on ? 0u : 1u, 0u, state.iterations + 1u, made, state.enough, state.is_over, 0u);
+    return sum_over_group(vec4(total, 0.0, 0.0)).xy;
 }
 #endif
 
@@ -37,7 +33,7 @@ void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
-    uint i = texelFetch(island_of_object, int(chunk.x)).x;
+    uint i = large_island_of(chunk.x);
     if (i == kNone) {  // what was solved before is forgotten
 #ifdef FIRST
         for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) directions[n] = vec4(0.0);
@@ -54,7 +50,7 @@ void main() {
     bool writes_state = lane == 0u && c == texelFetch(island_chunks, int(island.first_chunk)).x;
     bool was_done = state.is_done != 0u;
     float before = state.lack;
-    if (!was_done) state = next_state(state, island);
+    if (!was_done) state = next_state(state, total_lack(island), has_rows(island));
     if (writes_state) states[state_after(i)] = state;
     if (was_done) return;
     float b = state.lack / before;

@@ -47,7 +47,7 @@ void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
-    uint i = texelFetch(island_of_object, int(chunk.x)).x;
+    uint i = large_island_of(chunk.x);
     if (i == kNone || states[state_before(i)].is_done != 0u) return;
     float a = length_of_step(i, fetch_island(i));
     BodyMotion force = body_force(chunk.x, a), motion = times(fetch_inverse(chunk.x), force);

@@ -2,8 +2,8 @@
 // group an island.
 // CPU twin: gelatin::cpu::IslandSolve::conjugate_gradients. Parity: tests/gpu/implicit/step_system_test.cpp.
 const uint kLanes = 64u;
-#include "layouts/contact_tuning.glsl"
 #include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/solve_state.glsl"
 #include "sim/implicit/group_sums.glsl"
 layout(local_size_x = 64) in;
 
@@ -17,8 +17,8 @@ void main() {
     uint i = group_index(), lane = gl_LocalInvocationID.x;
     if (i >= object_count) return;
     StepIsland island = fetch_island(i);
-    if (is_first == 0u && !has_rows(island)) return;  // goes on with the first one
-    float lack = 0.0, lacking = 0.0;
+    if (is_small(island) || (is_first == 0u && !has_rows(island))) return;  // those without rows go on with the first one
+    vec2 total = vec2(0.0);
     for (uint k = island.first_body + lane; k < island.body_end; k += kLanes) {
         uint object = texelFetch(island_bodies, int(k)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
         vec4 force = vec4(0.0), moment = vec4(0.0);
@@ -29,18 +29,12 @@ void main() {
         BodyMotion left = BodyMotion(vec4(force.xyz, 0.0), moment), motion = times(fetch_inverse(object), left);
         body_forces[state_before(object)] = left;
         body_motions[object] = motion;
-        float of_body = force.w + dot_of(left, motion);
-        lack += of_body;
-        if (!(of_body <= enough_of(object))) lacking += 1.0;
+        total += lack_of(object, force.w + dot_of(left, motion));
     }
-    vec2 total = sum_over_group(vec4(lack, lacking, 0.0, 0.0)).xy;
+    total = sum_over_group(vec4(total, 0.0, 0.0)).xy;
     if (lane != 0u) return;
     SolveState state = SolveState(0.0, 0u, 0u, 0u, 0u, 0.0, 0u, 0u);
     if (is_first == 0u) state = states[state_before(i)];
     if (is_first == 0u && state.made == 0u) state.is_over = 1u;
-    // One iteration is made in any case: what elements exert counts, however short the part.
-    bool is_needed = state.iterations == 0u || total.y > 0.0;
-    bool is_done = state.is_over != 0u || !(total.x > 0.0) || !is_needed;
-    states[state_before(i)] = SolveState(total.x, is_done ? 1u : 0u, 0u, state.iterations, 0u,
-                                         has_rows(island) ? kForcing * total.x : 0.0, state.is_over, 0u);
+    states[state_before(i)] = first_state(state, total, has_rows(island));
 }

@@ -17,6 +17,7 @@ uniform samplerBuffer bodies;             // StepBody, five texels each
 uniform samplerBuffer inverses;           // BodyInverse, nine texels each
 uniform uint chunk_count;
 uniform uint object_count;
+uniform uint small_chunks;      // an island of so many chunks at most is small: solve_islands.comp solves it
 uniform uint turn;              // of the two states of each island, the one before this iteration
 
 uint state_before(uint island) { return turn * object_count + island; }
@@ -29,6 +30,15 @@ StepIsland fetch_island(uint number) {
 }
 
 bool has_rows(StepIsland island) { return island.first_row < island.row_end; }
+
+// Not one without bodies.
+bool is_small(StepIsland island) { return island.chunk_end - island.first_chunk - 1u < small_chunks; }
+
+// kNone: none, or it is small.
+uint large_island_of(uint object) {
+    uint number = texelFetch(island_of_object, int(object)).x;
+    return number == kNone || is_small(fetch_island(number)) ? kNone : number;
+}
 
 vec3 center_of(uint object) { return texelFetch(bodies, 5 * int(object)).xyz; }
 

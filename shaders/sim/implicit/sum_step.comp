@@ -17,14 +17,14 @@ layout(std430) writeonly buffer StepSums { vec2 step_sums[]; };  // [J]
 
 vec3 row_value(uint r, StepRow row) {
     vec3 s = texelFetch(slips, int(r)).xyz + relative(row, steps);
-    return texelFetch(tangents, 3 * int(r)).xyz - times(fetch_stiffness(r), s);
+    return texelFetch(tangents, 3 * int(r)).xyz - times(row_stiffness(r), s);
 }
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
-    uint island = texelFetch(island_of_object, int(chunk.x)).x;
+    uint island = large_island_of(chunk.x);
     if (island == kNone || !has_rows(fetch_island(island)) || states[state_before(island)].made == 0u) return;
     vec2 own = vec2(0.0);
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {

@@ -39,12 +39,13 @@ public:
     /// For programs that define PRODUCTS and include sim/implicit/half_edges.glsl. @param d what they
     /// multiply
     void bind_product(const gl::Program& program, const gl::BufferTexture& d) const;
+    /// The same, of which FIELD_AT is what they multiply.
+    void bind_edges(const gl::Program& program) const;
     /// For programs that include sim/implicit/tets.glsl.
     void bind_tets(const gl::Program& program) const;
 
 private:
     void bind_buffers() const;
-    void bind_edges(const gl::Program& program) const;
 
     gl::Program tet_program_, edge_program_, node_program_, product_program_;
     std::uint32_t node_count_, tet_count_, edge_count_;

@@ -21,9 +21,10 @@ std::vector<float> weights_of(const Model& model) {
 
 }  // namespace
 
-StepBuffers::StepBuffers(const Model& model, const RowCapacity& capacity)
+StepBuffers::StepBuffers(const Model& model, const RowCapacity& capacity, std::uint32_t small_chunks)
     : object_count(static_cast<std::uint32_t>(model.objects.size())),
       has_rows_(capacity.rows > 0),
+      small_chunks_(small_chunks),
       weights_(weights_of(model), gl::TexelFormat::r32f) {
     const auto rgba32f = gl::TexelFormat::rgba32f, rgba32ui = gl::TexelFormat::rgba32ui;
     const auto r32f = gl::TexelFormat::r32f, r32ui = gl::TexelFormat::r32ui;
@@ -63,7 +64,7 @@ StepBuffers::StepBuffers(const Model& model, const RowCapacity& capacity)
     pairs_ = {capacity.pairs, rgba32ui};
     row_chunks_ = {most_chunks, gl::TexelFormat::rg32ui};
     tangents_ = {most_rows, rgba32f};
-    for (StepBuffer<glm::vec4>* values : {&slips, &expected_, &changes_}) *values = {most_rows, rgba32f};
+    slips = {most_rows, rgba32f};
     arms_ = {2 * most_rows, rgba32f};
     row_sums_ = {kMatrixSums * most_chunks, rgba32f};
     pair_sums_ = {kPairSums * capacity.pairs, rgba32f};
@@ -72,6 +73,9 @@ StepBuffers::StepBuffers(const Model& model, const RowCapacity& capacity)
 void StepBuffers::set_rows(std::span<const StepRow> new_rows,
                            std::span<const std::uint32_t> islands_of_bodies) {
     const RowTables tables = make_row_tables(sizes_, new_rows, islands_of_bodies);
+    has_large_islands_ = std::any_of(
+        tables.islands.begin(), tables.islands.end(),
+        [&](const StepIsland& island) { return island.chunk_end - island.first_chunk > small_chunks_; });
     islands_.values.upload(tables.islands);
     island_of_object_.values.upload(tables.island_of_object);
     island_bodies_.values.upload(tables.island_bodies);
@@ -110,6 +114,7 @@ void bind_both(const gl::Program& program, std::string_view block, std::string_v
 void StepBuffers::bind(const gl::Program& program) const {
     program.set("chunk_count", chunk_count);
     program.set("object_count", object_count);
+    program.set("small_chunks", small_chunks_);
     bind_texels(program, "chunks", chunks_);
     bind_texels(program, "chunk_starts", chunk_starts_);
     bind_both(program, "Loads", "loads", loads);
@@ -149,9 +154,7 @@ void StepBuffers::bind_bodies(const gl::Program& program) const {
 void StepBuffers::bind_rows(const gl::Program& program) const {
     bind_block(program, "Rows", rows);
     bind_both(program, "Slips", "slips", slips);
-    bind_both(program, "Expected", "expected", expected_);
     bind_both(program, "Arms", "arms", arms_);
-    bind_block(program, "Changes", changes_);
     bind_block(program, "RowSums", row_sums_);
     bind_block(program, "PairSums", pair_sums_);
     bind_both(program, "Tangents", "tangents", tangents_);

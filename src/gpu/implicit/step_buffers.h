@@ -36,12 +36,16 @@ struct RowCapacity {
 /// sampler in shaders/sim/implicit/.
 class StepBuffers {
 public:
-    StepBuffers(const Model& model, const RowCapacity& capacity);
+    /// @param small_chunks as in StepSystem
+    StepBuffers(const Model& model, const RowCapacity& capacity, std::uint32_t small_chunks);
 
     /// What the program's source names; but for what is bound to it by another name.
     void bind(const gl::Program& program) const;
     /// As StepSystem has it.
     void set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies);
+
+    /// Whether any island is larger than a work group solves by itself.
+    bool has_large_islands() const { return has_large_islands_; }
 
     std::uint32_t object_count, chunk_count;
     StepBuffer<glm::vec4> loads, displacements;                               ///< by node, as in StepSystem
@@ -57,7 +61,8 @@ private:
     void bind_bodies(const gl::Program& program) const;
     void bind_rows(const gl::Program& program) const;
 
-    bool has_rows_;
+    bool has_rows_, has_large_islands_ = false;
+    std::uint32_t small_chunks_;
     RowTableSizes sizes_;
     gl::TexelTable<Chunk> chunks_;
     gl::TexelTable<std::uint32_t> chunk_starts_;
@@ -75,7 +80,7 @@ private:
         entry_starts_, row_entries_;
     StepBuffer<StepPair> pairs_;
     StepBuffer<glm::uvec2> row_chunks_;
-    StepBuffer<glm::vec4> expected_, changes_, arms_, row_sums_, pair_sums_;
+    StepBuffer<glm::vec4> arms_, row_sums_, pair_sums_;
     StepBuffer<StepTangent> tangents_;
 };
 

@@ -46,12 +46,15 @@ std::vector<const gl::Program*> StepSystem::RowPrograms::all() const {
     return {&begin, &base, &newton, &move, &linearise, &begin_again, &sum_step, &line_search};
 }
 
-StepSystem::StepSystem(const Model& model, const RowCapacity& capacity)
+StepSystem::StepSystem(const Model& model, const RowCapacity& capacity, std::uint32_t small_chunks)
     : elastic(model),
-      buffers_(model, capacity),
+      buffers_(model, capacity, small_chunks),
       programs_(capacity.rows > 0 ? gl::Defines{"ROWS"} : gl::Defines{}),
       capacity_(capacity) {
+    assert(small_chunks <= packing::kChunksOfSmallIsland);
+    const gl::Defines defines = capacity.rows > 0 ? gl::Defines{"ROWS"} : gl::Defines{};
     if (capacity.rows > 0) rows_.emplace();
+    if (small_chunks > 0) small_islands_ = gl::Program::compute("sim/implicit/solve_islands.comp", defines);
     std::vector<std::uint32_t> alone(model.body_count());
     std::iota(alone.begin(), alone.end(), 0u);
     set_rows({}, alone);
@@ -70,6 +73,11 @@ void StepSystem::bind_buffers() const {
     p.residual.bind("directions", elastic.displacement_texels());
     for (const gl::Program* program : {&p.first_direction, &p.direction})
         program->bind("Directions", elastic.displacements);
+    if (small_islands_) {
+        buffers_.bind(*small_islands_);
+        elastic.bind_edges(*small_islands_);
+        small_islands_->bind("element_blocks", elastic.block_texels());
+    }
     if (!rows_) return;
     for (const gl::Program* program : rows_->all()) buffers_.bind(*program);
     rows_->begin_again.bind("element_blocks", elastic.block_texels());
@@ -90,7 +98,7 @@ void StepSystem::run(const gl::Program& program, std::uint32_t groups) const {
 void StepSystem::run_newton(float tolerance) const {
     rows_->newton.set("tolerance", tolerance);
     run(rows_->newton, buffers_.object_count);
-    run(rows_->move, buffers_.chunk_count);
+    if (buffers_.has_large_islands()) run(rows_->move, buffers_.chunk_count);
 }
 
 // A linearisation and its conjugate gradients. @param turn of states @return the next
@@ -124,21 +132,30 @@ void StepSystem::begin_bodies(const NodeBuffers& at) const {
     gl::barrier(gl::Barrier::texture_fetch);
 }
 
-void StepSystem::solve(const NodeBuffers& at) const {
-    for (const gl::Program* program : programs_.all()) bind_positions(*program, at);
-    programs_.direction.set("most_iterations", static_cast<std::uint32_t>(iterations));
-    if (rows_) {
-        for (const gl::Program* program : rows_->all()) bind_positions(*program, at);
-        rows_->begin.dispatch_groups(buffers_.object_count);
-        run(rows_->base, buffers_.chunk_count);
-        run_newton(contact_tuning::kBalance);
-    }
+void StepSystem::solve_large_islands() const {
     // Islands without rows go on in the second round.
     std::uint32_t turn = 0;
     const std::uint32_t rounds = rows_ ? contact_tuning::kMostLinearisations : 1;
     for (std::uint32_t round = 0; round < rounds; ++round)
         turn = run_round(round == 0, rows_ ? iterations : 2 * iterations, turn);
     run(programs_.finish, buffers_.chunk_count);
+}
+
+void StepSystem::solve(const NodeBuffers& at) const {
+    for (const gl::Program* program : programs_.all()) bind_positions(*program, at);
+    programs_.direction.set("most_iterations", static_cast<std::uint32_t>(iterations));
+    if (rows_) {
+        for (const gl::Program* program : rows_->all()) bind_positions(*program, at);
+        run(rows_->begin, buffers_.object_count);
+        if (buffers_.has_large_islands()) run(rows_->base, buffers_.chunk_count);
+        run_newton(contact_tuning::kBalance);
+    }
+    if (small_islands_) {
+        bind_positions(*small_islands_, at);
+        small_islands_->set("most_iterations", static_cast<std::uint32_t>(iterations));
+        run(*small_islands_, buffers_.object_count);
+    }
+    if (buffers_.has_large_islands()) solve_large_islands();
     if (rows_) run_newton(contact_tuning::kBalance);
 }
 

@@ -12,6 +12,7 @@
 #include "gpu/implicit/step_buffers.h"
 #include "gpu/node_buffers.h"
 #include "model/model.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::gpu {
 
@@ -19,14 +20,18 @@ namespace gelatin::gpu {
 ///   sum_i m_i / (2 h^2) |x_i + d_i - y_i|^2 + d^T K d / 2 - f^T d + sum of rows,
 /// with elements to second order (ElasticSystem), and contacts by their law, friction among it. Each island
 /// of bodies with rows in common is solved by itself. Newton's method: on rigid motions alone
-/// (rigid_newton.comp), then on all nodes, with conjugate gradients of three dispatches an iteration
-/// (solve_product.comp, solve_residual.comp, solve_direction.comp), then on rigid motions again. What the
-/// host does not know is what is needed: a dispatch behind the end of an island's solve does nothing to it.
+/// (rigid_newton.comp), then on all nodes, with conjugate gradients, then on rigid motions again. A small
+/// island takes one dispatch for all nodes (solve_islands.comp); others take three an iteration
+/// (solve_product.comp, solve_residual.comp, solve_direction.comp), if there are any. What the host does not
+/// know is what is needed: a dispatch behind the end of an island's solve does nothing to it.
 /// CPU twin: cpu::StepSystem.
 class StepSystem {
 public:
     /// @param capacity without any, nothing is spent on rows
-    explicit StepSystem(const Model& model, const RowCapacity& capacity = {});
+    /// @param small_chunks of nodes that a small island has at most; 0: none is small
+    /// @pre small_chunks is at most packing::kChunksOfSmallIsland
+    explicit StepSystem(const Model& model, const RowCapacity& capacity = {},
+                        std::uint32_t small_chunks = packing::kChunksOfSmallIsland);
 
     ElasticSystem elastic;
     /// m / h^2 (y - x) + f [N]; w: m / h^2 [N/m], 0 where a node is held; [nodes]
@@ -75,11 +80,13 @@ private:
     void bind_buffers() const;
     void run(const gl::Program& program, std::uint32_t groups) const;
     void run_newton(float tolerance) const;
+    void solve_large_islands() const;
     std::uint32_t run_round(bool is_first, int count, std::uint32_t turn) const;
 
     StepBuffers buffers_;
     Programs programs_;
     std::optional<RowPrograms> rows_;
+    std::optional<gl::Program> small_islands_;  // if any may be small
     RowCapacity capacity_;
     std::uint32_t row_count_ = 0;  // of those that the host has set
 };

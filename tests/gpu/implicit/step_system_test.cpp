@@ -14,7 +14,9 @@ namespace gelatin {
 namespace {
 
 class StepSystemParityTest : public test::ParityTest {};
-INSTANTIATE_TEST_SUITE_P(All, StepSystemParityTest, ::testing::ValuesIn(test::step_system_scenarios()),
+INSTANTIATE_TEST_SUITE_P(All, StepSystemParityTest,
+                         ::testing::ValuesIn(test::joined({test::step_system_scenarios(),
+                                                           test::small_island_scenarios()})),
                          test::name_of_scenario);
 
 TEST_P(StepSystemParityTest, MatchesTheDoubleReference) {

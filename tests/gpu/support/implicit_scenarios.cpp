@@ -139,6 +139,7 @@ struct SolveCase {
     std::vector<std::uint32_t> islands{};  // of bodies; none: a body each
     std::vector<std::uint8_t> asleep{};    // bodies, after a solve in which none is
     float push = 0.01f;                    // how far bodies would go [m]
+    std::uint32_t small_chunks = 0;        // as in gpu::StepSystem
 };
 
 struct SolveInput {
@@ -202,7 +203,7 @@ SolveResult solve_on_gpu(const SolveCase& at) {
     const Model& model = *at.model;
     const ElasticStart start(model);
     const std::size_t most = at.rows.empty() ? 0 : at.rows.size() + 3;
-    gpu::StepSystem system(model, {most, most});
+    gpu::StepSystem system(model, {most, most}, at.small_chunks);
     system.enough().upload(std::vector<float>(model.objects.size(), at.enough));
     system.iterations = at.iterations;
     std::vector<StepRow> rows;
@@ -267,7 +268,7 @@ double error_of_limits(const std::vector<double>& actual, const std::vector<doub
     return worst > 0.0 ? worst / (0.01 * greatest) : 0.0;
 }
 
-double solve_error(const SolveCase& at) {
+double error_of_solve(const SolveCase& at) {
     const SolveResult actual = solve_on_gpu(at), expected = solve_reference(at);
     if (actual.iterations != expected.iterations) return std::numeric_limits<double>::infinity();
     return std::max(error_of(actual.displacements, expected.displacements, 1e-4),
@@ -388,8 +389,12 @@ Scenarios elastic_system_scenarios() {
     return scenarios;
 }
 
-Scenarios step_system_scenarios() {
+Scenarios step_system_scenarios(std::uint32_t small_chunks) {
     Scenarios scenarios;
+    const auto solve_error = [small_chunks](SolveCase at) {
+        at.small_chunks = small_chunks;
+        return error_of_solve(at);
+    };
     for (const double friction : {0.0, 0.4})
         for (const bool is_held : {false, true})
             for (const int rows : {6, 60})
@@ -397,20 +402,20 @@ Scenarios step_system_scenarios() {
                                          (is_held ? "_with_a_held_body" : "") +
                                          (rows > 6 ? "_of_several_chunks" : ""),
                                      [=] { return solve_error(several_islands(friction, rows, is_held)); }});
-    scenarios.push_back({"rows_after_few_iterations", [] {
+    scenarios.push_back({"rows_after_few_iterations", [=] {
                              SolveCase at = several_islands(0.4, 20, false);
                              at.iterations = 2;
                              return solve_error(at);
                          }});
     scenarios.push_back(
-        {"rows_of_what_was_solved_before_and_sleeps", [] {
+        {"rows_of_what_was_solved_before_and_sleeps", [=] {
              SolveCase at = several_islands(0.4, 20, false);
              at.asleep = {0, 0, 1, 0, 0, 1};
              std::erase_if(at.rows, [](const auto& row) { return row.object == kNoNode && row.other == 2; });
              return solve_error(at);
          }});
-    scenarios.push_back({"rows_of_a_held_body", [] { return solve_error(held_block()); }});
-    scenarios.push_back({"rows_of_what_is_enough_at_once", [] {
+    scenarios.push_back({"rows_of_a_held_body", [=] { return solve_error(held_block()); }});
+    scenarios.push_back({"rows_of_what_is_enough_at_once", [=] {
                              SolveCase at = several_islands(0.4, 20, false);
                              at.enough = 1e9f;
                              return solve_error(at);
@@ -422,21 +427,48 @@ Scenarios step_system_scenarios() {
         Model shaken = at.model;
         shake_nodes(shaken, 0.003f);
         const auto model = std::make_shared<const Model>(std::move(shaken));
-        scenarios.push_back({at.name, [model] { return solve_error({model, 3, 0.0f}); }});
-        scenarios.push_back({at.name + "_to_the_end", [model] { return solve_error({model, 30, 1e-5f}); }});
+        scenarios.push_back({at.name, [=] { return solve_error({model, 3, 0.0f}); }});
+        scenarios.push_back({at.name + "_to_the_end", [=] { return solve_error({model, 30, 1e-5f}); }});
     }
     return scenarios;
 }
 
+Scenarios small_island_scenarios() {
+    Scenarios scenarios = step_system_scenarios(packing::kChunksOfSmallIsland);
+    scenarios.push_back(
+        {"rows_of_a_body_of_several_chunks", [] {
+             SolveCase at{
+                 make_blocks({{.cells = {6, 6, 6}}, {.place = {0.0, 0.31, 0.0}}}), 30, 1e-7f, {}, {0, 0}};
+             at.small_chunks = packing::kChunksOfSmallIsland;
+             RowMaker maker(at.model);
+             maker.add(kNoNode, 0, 20, kUp, 0.4);
+             maker.add(0, 1, 20, kUp, 0.4);
+             at.rows = maker.rows;
+             return error_of_solve(at);
+         }});
+    scenarios.push_back({"rows_in_islands_small_and_large", [] {
+                             SolveCase at = several_islands(0.4, 20, false);
+                             at.small_chunks = 2;
+                             return error_of_solve(at);
+                         }});
+    for (Scenario& scenario : scenarios) scenario.name += "_in_small_islands";
+    return scenarios;
+}
+
 bool solves_repeat() {
-    const SolveCase at = several_islands(0.4, 60, false);
-    return solve_on_gpu(at).displacements == solve_on_gpu(at).displacements;
+    SolveCase at = several_islands(0.4, 60, false);
+    const auto repeats = [&] { return solve_on_gpu(at).displacements == solve_on_gpu(at).displacements; };
+    if (!repeats()) return false;
+    at.small_chunks = packing::kChunksOfSmallIsland;
+    return repeats();
 }
 
 void run_implicit_programs() {
     solve_on_gpu({make_blocks({{}}), 2, 0.0f});
     SolveCase with_rows = several_islands(0.4, 2, false);
     with_rows.iterations = 1;
+    solve_on_gpu(with_rows);
+    with_rows.small_chunks = packing::kChunksOfSmallIsland;
     solve_on_gpu(with_rows);
     for (const ElasticCase& at : elastic_cases()) elastic_on_gpu(at.model);
     run_end_programs();
