@@ -1,9 +1,14 @@
 #include "gpu/implicit/implicit_solver.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <utility>
 
+#include "core/archive.h"
+#include "core/log.h"
 
 namespace gelatin::gpu {
 namespace {
@@ -12,6 +17,22 @@ namespace {
 RowCapacity capacity_of(const Model& model) {
     if (model.colliders.empty()) return {};
     return {model.colliders.size() * model.surface_parts.nodes.size(), model.body_count()};
+}
+
+// Sizes say for which model it is: the same solver's on another device has them, too.
+void pass(PartEnd::Memory& memory, Archive& archive) {
+    constexpr std::size_t kDevice = 0xDE71CE;  // no size of a scalar, with which the host's begins
+    const std::array<std::size_t, 4> kind{kDevice, memory.accelerations.size(), memory.paces.size(),
+                                          memory.planes.size()};
+    std::array<std::size_t, 4> written = kind;
+    archive.value(written);
+    if (written != kind) return archive.fail();
+    archive.array(memory.clock);
+    archive.array(memory.paces);
+    archive.array(memory.accelerations);
+    archive.array(memory.planes);
+    archive.array(memory.energies);
+    archive.array(memory.meetings);
 }
 
 void copy_nodes(const NodeBuffers& from, NodeBuffers& to) {
@@ -49,10 +70,28 @@ State ImplicitSolver::read_state() {
 void ImplicitSolver::write_state(const State& state) {
     complete();
     GpuSolver::write_state(state);
-    if (has_earlier_ && size_ > 0.0)
-        end_.go_on(state.positions, state.velocities, state.earlier_velocities, size_);
-    else
-        end_.forget();
+    goes_on_ = false;
+    if (restore(state.memory)) return;
+    end_.forget();
+    goes_on_ = has_earlier_;
+}
+
+std::string ImplicitSolver::memory() {
+    complete();
+    std::string bytes;
+    Archive archive = Archive::that_writes(bytes);
+    PartEnd::Memory memory = end_.memory();
+    pass(memory, archive);
+    return bytes;
+}
+
+// @return whether it was that of such a solver
+bool ImplicitSolver::restore(std::string_view bytes) {
+    Archive archive = Archive::that_reads(bytes);
+    PartEnd::Memory memory = end_.memory();
+    pass(memory, archive);
+    if (archive.is_complete()) end_.set_memory(memory);
+    return archive.is_complete();
 }
 
 void ImplicitSolver::apply_kinematics(std::span<const HandleMotion> motions) {
@@ -62,7 +101,10 @@ void ImplicitSolver::apply_kinematics(std::span<const HandleMotion> motions) {
 
 void ImplicitSolver::advance_nodes(const Step& step) {
     complete();
-    size_ = step.size;
+    if (std::exchange(goes_on_, false)) {
+        const State state = GpuSolver::read_state();
+        end_.go_on(state.positions, state.velocities, state.earlier_velocities, step.size);
+    }
     loads_ = loads_of(step);
     std::swap(current_, previous_);
     copy_nodes(previous_, state_.from);
@@ -95,6 +137,10 @@ void ImplicitSolver::complete() {
         std::memcpy(&clock, clocks_.take().data(), sizeof(clock));
         tries_ = std::clamp(clock.tries + 1, 2u, 8u);
         if (clock.is_over == 0) make_tries();
+        if (clock.dropped_rows > 0 && !std::exchange(has_warned_, true))
+            log_warning(fmt::format(
+                "{} contacts with colliders had no place on the device; there nodes are only kept outside",
+                clock.dropped_rows));
     }
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "gl/readback.h"
 #include "gpu/gpu_solver.h"
@@ -29,6 +30,7 @@ public:
 
     void begin_measure() override;
     State read_state() override;
+    std::string memory() override;
     void write_state(const State& state) override;
 
 protected:
@@ -38,6 +40,7 @@ protected:
 private:
     void make_tries();
     void complete();
+    bool restore(std::string_view memory);
 
     bool divides_steps_;
     ContactSurface surface_;
@@ -47,8 +50,9 @@ private:
     PartEnd end_;
     ShapeMatcher shape_matcher_;  // of bodies that have lost their shape, before they move
     const SumLoads* loads_ = nullptr;
-    double size_ = 0.0;        // of the last step [s]
+    bool goes_on_ = false;     // with earlier velocities of a state that was written
     std::uint32_t tries_ = 2;  // to launch
+    bool has_warned_ = false;  // of contacts without a place
     gl::Readback clocks_;      // of steps that were launched: of one at most
 };
 

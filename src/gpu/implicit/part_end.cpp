@@ -178,6 +178,32 @@ void PartEnd::forget() {
     meetings_.upload(std::vector<double>(meetings_.size()));
 }
 
+PartEnd::Memory PartEnd::memory() const {
+    gl::barrier(gl::Barrier::buffer_update);
+    const auto read = [](const auto& buffer, auto& values) {
+        values.resize(buffer.size());
+        buffer.download(values);
+    };
+    Memory memory;
+    read(state_->clock, memory.clock);
+    read(state_->paces.values, memory.paces);
+    read(state_->accelerations.values, memory.accelerations);
+    read(state_->plane_memories, memory.planes);
+    read(energies_, memory.energies);
+    read(meetings_, memory.meetings);
+    return memory;
+}
+
+void PartEnd::set_memory(const Memory& memory) {
+    gl::barrier(gl::Barrier::buffer_update);
+    state_->clock.upload(memory.clock);
+    state_->paces.values.upload(memory.paces);
+    state_->accelerations.values.upload(memory.accelerations);
+    state_->plane_memories.upload(memory.planes);
+    energies_.upload(memory.energies);
+    meetings_.upload(memory.meetings);
+}
+
 // Accelerations are Euler's.
 void PartEnd::go_on(std::span<const glm::vec4> positions, std::span<const glm::vec4> velocities,
                     std::span<const glm::vec4> earlier_velocities, double step) {

@@ -43,6 +43,19 @@ public:
     void go_on(std::span<const glm::vec4> positions, std::span<const glm::vec4> velocities,
                std::span<const glm::vec4> earlier_velocities, double step);
 
+    /// All that passes from part to part beside nodes. It blocks until the device has it.
+    struct Memory {
+        std::vector<StepClock> clock;
+        std::vector<BodyPace> paces;
+        std::vector<glm::vec4> accelerations;
+        std::vector<PlaneMemory> planes;
+        std::vector<BodyEnergy> energies;
+        std::vector<double> meetings;
+    };
+    Memory memory() const;
+    /// @pre of as many nodes, objects and colliders
+    void set_memory(const Memory& memory);
+
     /// By object; and by collider and object, end_sums::kMeeting each.
     const gl::Buffer<BodyEnergy>& energies() const { return energies_; }
     const gl::Buffer<double>& meetings() const { return meetings_; }

@@ -18,8 +18,7 @@ using thresholds::kLeastExplained;
 /// Or where it is less than this thin. Then nothing but a line or a point is left: parts of what unfolds from
 /// it would stay inverted.
 using thresholds::kThinnest;
-/// The objects' shapes at rest, to be matched with where their nodes are (docs/block-descent.md, "Lost
-/// shapes").
+/// The objects' shapes at rest, to be matched with where their nodes are (docs/lost-shapes.md).
 struct MatchShapes {
     std::vector<glm::vec4> offsets;  ///< from the object's centre of mass [m], mass [kg], shape [nodes]
     std::vector<RestMoment> objects;

@@ -17,7 +17,7 @@ namespace {
 
 using test::kFrame;
 
-// Of soft bodies above a plane, which sleep unless they are told not to.
+// Of soft bodies above a plane, which sleep if they may.
 class Sleeper {
 public:
     explicit Sleeper(std::shared_ptr<const Model> model, bool sleeps = true)
