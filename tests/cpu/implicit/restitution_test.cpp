@@ -135,8 +135,8 @@ std::vector<Block> tumbling_blocks() {
 TEST(Restitution, KeepsMomentumAndAngularMomentum) {
     const auto model = make_blocks(tumbling_blocks());
     Solver solver = make_solver(model, 1.0), without = make_solver(model, 0.0);
-    const auto momentum = [&](const Solver& of) { return sums_of_all(*model, of).momentum; };
-    const auto angular = [&](const Solver& of) { return sums_of_all(*model, of).angular_momentum; };
+    const auto momentum = [&](Solver& of) { return sums_of_all(*model, of).momentum; };
+    const auto angular = [&](Solver& of) { return sums_of_all(*model, of).angular_momentum; };
     const double size = 27.0 * 6.0;  // of a momentum [kg m/s]; arms are shorter than 1 m
     for (int k = 0; k < 240 && solver.nodes().velocities == without.nodes().velocities; ++k) {
         solver.advance({kFrame / 4.0});
