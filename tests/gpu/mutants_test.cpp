@@ -36,6 +36,9 @@ TEST_P(MutantsLong, IsCaught) {
 }
 INSTANTIATE_TEST_SUITE_P(StepRows, MutantsLong,
                          ::testing::ValuesIn(cases(kStepRowMutants, step_system_scenarios())), name_of_case);
+INSTANTIATE_TEST_SUITE_P(SmallIslandRows, MutantsLong,
+                         ::testing::ValuesIn(cases(kSmallIslandRowMutants, small_island_scenarios(true))),
+                         name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(PartEnds, MutantsLong,
                          ::testing::ValuesIn(cases(kPartEndMutants, part_end_scenarios())), name_of_case);
@@ -49,7 +52,7 @@ INSTANTIATE_MUTANTS(Drive, kDriveMutants,
 INSTANTIATE_MUTANTS(Pulls, kPullMutants, pull_scenarios());
 INSTANTIATE_MUTANTS(ElasticSystem, kElasticSystemMutants, elastic_system_scenarios());
 INSTANTIATE_MUTANTS(StepSystem, kStepSystemMutants, step_system_scenarios());
-INSTANTIATE_MUTANTS(SmallIslands, kSmallIslandMutants, small_island_scenarios());
+INSTANTIATE_MUTANTS(SmallIslands, kSmallIslandMutants, small_island_scenarios(false));
 INSTANTIATE_MUTANTS(PartStart, kPartStartMutants, part_start_scenarios());
 INSTANTIATE_MUTANTS(Matching, kMatchingMutants, matching_scenarios());
 INSTANTIATE_MUTANTS(NeoHookean, kNeoHookeanMutants,

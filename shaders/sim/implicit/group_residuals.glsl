@@ -1,7 +1,32 @@
 // Sums of forces and moments over a work group of kLanes, for kernels that have its other sums, too.
 #include "sim/implicit/group_sums.glsl"
 
+shared vec4 lane_moments[kLanes], row_moments[kLanes / 16u], group_moment;
+
 ResidualSums sum_by_lanes(vec4 force, vec3 moment) {
-    vec4 sum = sum_over_group(force);
-    return ResidualSums(sum, sum_over_group(vec4(moment, 0.0)));
+    uint lane = gl_LocalInvocationID.x;
+    lane_parts[lane] = force;
+    lane_moments[lane] = vec4(moment, 0.0);
+    barrier();
+    if (lane < kLanes / 16u) {
+        ResidualSums sum = ResidualSums(vec4(0.0), vec4(0.0));
+        for (uint k = 16u * lane; k < 16u * lane + 16u; ++k) {
+            sum.force += lane_parts[k];
+            sum.moment += lane_moments[k];
+        }
+        row_parts[lane] = sum.force;
+        row_moments[lane] = sum.moment;
+    }
+    barrier();
+    if (lane == 0u) {
+        ResidualSums sum = ResidualSums(vec4(0.0), vec4(0.0));
+        for (uint k = 0u; k < kLanes / 16u; ++k) {
+            sum.force += row_parts[k];
+            sum.moment += row_moments[k];
+        }
+        group_sum = sum.force;
+        group_moment = sum.moment;
+    }
+    barrier();
+    return ResidualSums(group_sum, group_moment);
 }

@@ -4,25 +4,20 @@
 const uint kLanes = 256u;
 #define PRODUCTS
 #define MAKES_TANGENTS
-#define FIELD_AT(n) value_at(kDirection, (n) + to_slot)
+#define FIELD_AT(n) value_at((n) + to_slot)
 #include "layouts/packing.glsl"
 layout(local_size_x = 256) in;
 
 const uint kMost = kChunksOfSmallIsland, kSlots = kLanes * kMost;
-const uint kDirection = 0u, kStep = 1u;
-shared float values[2u * 3u * kSlots];  // p, which is d at first, and the step [m]
-uint to_slot;                           // from a node of the body of the chunk that is worked on
+shared float values[3u * kSlots];  // d, p or the step: what others read of nodes [m]
+uint to_slot;                      // from a node of the body of the chunk that is worked on
 
-vec3 value_at(uint field, uint slot) {
-    uint at = 3u * field * kSlots + slot;
-    return vec3(values[at], values[at + kSlots], values[at + 2u * kSlots]);
-}
+vec3 value_at(uint slot) { return vec3(values[slot], values[slot + kSlots], values[slot + 2u * kSlots]); }
 
-void set_value(uint field, uint slot, vec3 value) {
-    uint at = 3u * field * kSlots + slot;
-    values[at] = value.x;
-    values[at + kSlots] = value.y;
-    values[at + 2u * kSlots] = value.z;
+void set_value(uint slot, vec3 value) {
+    values[slot] = value.x;
+    values[slot + kSlots] = value.y;
+    values[slot + 2u * kSlots] = value.z;
 }
 
 #include "sim/implicit/solve_system.glsl"
@@ -47,9 +42,10 @@ shared vec2 body_lacks[kMost];
 StepIsland island;
 uint part_count, body_count;  // of chunks, of bodies
 // Of the invocation's node in each chunk.
-vec3 bases[kMost];      // loads - A d, without rows [N]
-vec3 residuals[kMost];  // r [N]
-vec3 products[kMost];   // A p, then A times the step without rows [N]
+vec3 steps[kMost];        // [m]
+vec3 bases[kMost];        // loads - A d, without rows [N]
+vec3 residuals[kMost];    // r [N]
+vec3 products[kMost];     // A p, then A times the step without rows [N]
 vec3 corrections[kMost];  // z without the rigid motion [m]
 NodeTerms blocks[kMost];
 
@@ -69,25 +65,30 @@ void keep_inverse(uint k, BodyInverse inverse_) { body_inverses[k - island.first
 vec3 arm_at(uint r, uint side) { return arm_of(rows[r], side == 0u ? rows[r].object : rows[r].other, side == 0u); }
 
 // 0 on what belongs to no body of the island: it does not move.
-vec3 relative(StepRow row, uint field) {
+vec3 relative(StepRow row) {
     uvec4 nodes = nodes_of(row);
     vec3 s = vec3(0.0);
     for (int j = 0; j < 4; ++j)
         FOR_PARTS(k) {
             uint place = nodes[j] - island_parts[k].y;
-            if (place < island_parts[k].z) s += row.weights[j] * value_at(field, k * kLanes + place);
+            if (place < island_parts[k].z) s += row.weights[j] * value_at(k * kLanes + place);
         }
     return s;
 }
 
-vec3 change_of(uint r) { return relative(rows[r], kStep); }
+vec3 change_of(uint r) { return relative(rows[r]); }
 
-// Of the direction, what rows resist with; of the step, what they exert after it.
-uint multiplied;
+// What rows exert at their slips, and by how much less after the displacements that are shared.
+bool has_slips, has_values;
 vec3 row_value(uint r, StepRow row) {
-    vec3 s = relative(row, multiplied);
-    if (multiplied == kDirection) return times(row_stiffness(r), s);
+    vec3 s = vec3(0.0);
+    if (has_values) s = relative(row);
+    if (!has_slips) return times(row_stiffness(r), s);
     return tangents[r].constant.xyz - times(row_stiffness(r), slips[r].xyz + s);
+}
+void choose(bool slips_too, bool values_too) {
+    has_slips = slips_too;
+    has_values = values_too;
 }
 #endif
 
@@ -118,8 +119,9 @@ void begin() {
 #endif
     FOR_PARTS(k) {
         uint n = node_of(k);
-        set_value(kDirection, slot_of(k), n == kNone ? vec3(0.0) : displacements[n].xyz);
+        set_value(slot_of(k), n == kNone ? vec3(0.0) : displacements[n].xyz);
     }
+    barrier();
 }
 
 // What bodies lack, and their rigid motions. @param lacks r . z of chunks @param a how much of A p is taken from r
@@ -150,14 +152,12 @@ vec2 find_motions(bool is_first, vec4 lacks, float a) {
 
 // From no step: r, blocks and z.
 void find_residuals(bool is_first) {
-    FOR_PARTS(k) set_value(kStep, slot_of(k), vec3(0.0));
-    barrier();
     FOR_PARTS(k) {
         uint n = node_of(k);
-        residuals[k] = corrections[k] = vec3(0.0);
+        steps[k] = residuals[k] = corrections[k] = vec3(0.0);
         if (inertia_of(n) > 0.0) {
             vec4 load = texelFetch(loads, int(n));
-            if (is_first) bases[k] = base_of(n, load, value_at(kDirection, slot_of(k)));
+            if (is_first) bases[k] = base_of(n, load, value_at(slot_of(k)));
             residuals[k] = bases[k] + sum_of_rows(n);
             blocks[k] = block_at(n, load.w);
             corrections[k] = solve(blocks[k], residuals[k]);
@@ -175,9 +175,9 @@ void find_direction(float b) {
         vec3 p = vec3(0.0);
         if (inertia_of(n) > 0.0) {
             p = corrections[k] + at_node(body_motions[island_parts[k].w], center_of(island_parts[k].x), n);
-            if (b != 0.0) p += b * value_at(kDirection, slot);
+            if (b != 0.0) p += b * value_at(slot);
         }
-        set_value(kDirection, slot, p);
+        set_value(slot, p);
     }
     barrier();
 }
@@ -187,7 +187,7 @@ float multiply() {
     FOR_PARTS(k) {
         uint n = node_of(k);
         float inertia = inertia_of(n);
-        vec3 p = value_at(kDirection, slot_of(k));
+        vec3 p = value_at(slot_of(k));
         products[k] = vec3(0.0);
         if (inertia > 0.0) products[k] = product_at(n, inertia, p);
         sum_part(k, n, products[k], dot(p, products[k]));
@@ -203,8 +203,7 @@ vec4 make_iteration(float a) {
     vec4 own = vec4(0.0);
     FOR_PARTS(k) {
         if (!(inertia_of(node_of(k)) > 0.0)) continue;
-        uint slot = slot_of(k);
-        set_value(kStep, slot, value_at(kStep, slot) + a * value_at(kDirection, slot));
+        steps[k] += a * value_at(slot_of(k));
         residuals[k] -= a * products[k];
         corrections[k] = solve(blocks[k], residuals[k]);
         own[k] = dot(residuals[k], corrections[k]);
@@ -219,7 +218,7 @@ SolveState conjugate_gradients(SolveState state) {
     while (state.is_done == 0u) {
         find_direction(b);
 #ifdef ROWS
-        multiplied = kDirection;
+        choose(false, true);
 #endif
         float curvature = multiply(), a = 0.0;
         if (curvature > 0.0)
@@ -234,20 +233,21 @@ SolveState conjugate_gradients(SolveState state) {
     return state;
 }
 
-// As far along the step as the objective falls; p is d then.
+// As far along the step as the objective falls; d is shared then.
 void make_step() {
     float part = 1.0;
 #ifdef ROWS
     if (has_rows(island)) {
-        multiplied = kStep;
+        FOR_PARTS(k) set_value(slot_of(k), steps[k]);
+        barrier();
+        choose(true, true);
         vec2 own = vec2(0.0);
         FOR_PARTS(k) {
             uint n = node_of(k);
             // A times the step, without rows: what the residual lost, less what rows did.
             products[k] = vec3(0.0);
             if (inertia_of(n) > 0.0) products[k] = bases[k] + sum_of_rows(n) - residuals[k];
-            vec3 step = value_at(kStep, slot_of(k));
-            own += vec2(dot(step, bases[k]), dot(step, products[k]));
+            own += vec2(dot(steps[k], bases[k]), dot(steps[k], products[k]));
         }
         vec2 sums = sum_over_group(vec4(own, 0.0, 0.0)).xy;
         part = line_search(island, sums.x, sums.y);
@@ -256,15 +256,15 @@ void make_step() {
     FOR_PARTS(k) {
         uint n = node_of(k);
         if (n == kNone) continue;
-        displacements[n].xyz += part * value_at(kStep, slot_of(k));
-        set_value(kDirection, slot_of(k), displacements[n].xyz);
+        displacements[n].xyz += part * steps[k];
+        set_value(slot_of(k), displacements[n].xyz);
         bases[k] -= part * products[k];
     }
     barrier();
 #ifdef ROWS
     // Those of a body with itself have not followed its rigid motion so far.
     for (uint r = island.first_row + gl_LocalInvocationID.x; r < island.row_end; r += kLanes)
-        slips[r].xyz = relative(rows[r], kDirection);
+        slips[r].xyz = relative(rows[r]);
 #endif
 }
 
@@ -275,7 +275,7 @@ SolveState solve_island() {
     for (uint k = 0u; k < most; ++k) {
 #ifdef ROWS
         linearise(island, k == 0u);
-        multiplied = kStep;
+        choose(true, false);
 #endif
         find_residuals(k == 0u);
         state = conjugate_gradients(state);

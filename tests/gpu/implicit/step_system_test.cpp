@@ -16,7 +16,8 @@ namespace {
 class StepSystemParityTest : public test::ParityTest {};
 INSTANTIATE_TEST_SUITE_P(All, StepSystemParityTest,
                          ::testing::ValuesIn(test::joined({test::step_system_scenarios(),
-                                                           test::small_island_scenarios()})),
+                                                           test::small_island_scenarios(false),
+                                                           test::small_island_scenarios(true)})),
                          test::name_of_scenario);
 
 TEST_P(StepSystemParityTest, MatchesTheDoubleReference) {

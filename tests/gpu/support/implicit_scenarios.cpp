@@ -433,8 +433,14 @@ Scenarios step_system_scenarios(std::uint32_t small_chunks) {
     return scenarios;
 }
 
-Scenarios small_island_scenarios() {
+Scenarios small_island_scenarios(bool with_rows) {
     Scenarios scenarios = step_system_scenarios(packing::kChunksOfSmallIsland);
+    std::erase_if(scenarios, [&](const Scenario& scenario) {
+        const bool has_rows = scenario.name.starts_with("rows") || scenario.name.starts_with("stack");
+        return has_rows != with_rows;
+    });
+    for (Scenario& scenario : scenarios) scenario.name += "_in_small_islands";
+    if (!with_rows) return scenarios;
     scenarios.push_back(
         {"rows_of_a_body_of_several_chunks", [] {
              SolveCase at{
@@ -451,7 +457,6 @@ Scenarios small_island_scenarios() {
                              at.small_chunks = 2;
                              return error_of_solve(at);
                          }});
-    for (Scenario& scenario : scenarios) scenario.name += "_in_small_islands";
     return scenarios;
 }
 

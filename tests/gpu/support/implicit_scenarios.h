@@ -14,7 +14,7 @@ Scenarios elastic_system_scenarios();
 /// @param small_chunks as in gpu::StepSystem; which path solves islands
 Scenarios step_system_scenarios(std::uint32_t small_chunks = 0);
 /// Those of islands of up to packing::kChunksOfSmallIsland, which a work group solves.
-Scenarios small_island_scenarios();
+Scenarios small_island_scenarios(bool with_rows);
 
 /// Whether a system is solved to the same bits again.
 bool solves_repeat();
