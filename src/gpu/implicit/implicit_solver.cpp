@@ -9,6 +9,8 @@
 
 #include "core/archive.h"
 #include "core/log.h"
+#include "gl/context.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::gpu {
 namespace {
@@ -17,6 +19,12 @@ namespace {
 RowCapacity capacity_of(const Model& model) {
     if (model.colliders.empty()) return {};
     return {model.colliders.size() * model.surface_parts.nodes.size(), model.body_count()};
+}
+
+// In software, barriers within work groups cost more than dispatches, and the program takes 9 s to compile
+// (docs/decisions/0074-small-islands-in-one-dispatch.md).
+std::uint32_t most_small_chunks() {
+    return gl::Context::current().device().is_software ? 0 : packing::kChunksOfSmallIsland;
 }
 
 // Sizes say for which model it is: the same solver's on another device has them, too.
@@ -49,7 +57,7 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
       divides_steps_(settings.divides_steps),
       surface_(make_contact_surface(*model_, collision)),
       state_(*model_, surface_),
-      system_(*model_, capacity_of(*model_)),
+      system_(*model_, capacity_of(*model_), most_small_chunks()),
       start_(*model_, state_, system_),
       end_(*model_, state_, system_),
       shape_matcher_(*model_) {
