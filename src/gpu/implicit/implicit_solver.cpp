@@ -96,7 +96,7 @@ std::string ImplicitSolver::memory() {
 // @return whether it was that of such a solver
 bool ImplicitSolver::restore(std::string_view bytes) {
     Archive archive = Archive::that_reads(bytes);
-    PartEnd::Memory memory = end_.memory();
+    PartEnd::Memory memory = end_.empty_memory();
     pass(memory, archive);
     if (archive.is_complete()) end_.set_memory(memory);
     return archive.is_complete();
@@ -144,7 +144,10 @@ void ImplicitSolver::complete() {
         StepClock clock;
         std::memcpy(&clock, clocks_.take().data(), sizeof(clock));
         tries_ = std::clamp(clock.tries + 1, 2u, 8u);
-        if (clock.is_over == 0) make_tries();
+        if (clock.is_over == 0) {
+            gl::barrier(gl::Barrier::storage);  // the copy has to have read the clock
+            make_tries();
+        }
         if (clock.dropped_rows > 0 && !std::exchange(has_warned_, true))
             log_warning(fmt::format(
                 "{} contacts with colliders had no place on the device; there nodes are only kept outside",

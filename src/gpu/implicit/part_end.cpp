@@ -178,24 +178,27 @@ void PartEnd::forget() {
     meetings_.upload(std::vector<double>(meetings_.size()));
 }
 
+PartEnd::Memory PartEnd::empty_memory() const {
+    return {std::vector<StepClock>(1),
+            std::vector<BodyPace>(state_->paces.values.size()),
+            std::vector<glm::vec4>(state_->accelerations.values.size()),
+            std::vector<PlaneMemory>(state_->plane_memories.size()),
+            std::vector<BodyEnergy>(energies_.size()),
+            std::vector<double>(meetings_.size())};
+}
+
 PartEnd::Memory PartEnd::memory() const {
-    gl::barrier(gl::Barrier::buffer_update);
-    const auto read = [](const auto& buffer, auto& values) {
-        values.resize(buffer.size());
-        buffer.download(values);
-    };
-    Memory memory;
-    read(state_->clock, memory.clock);
-    read(state_->paces.values, memory.paces);
-    read(state_->accelerations.values, memory.accelerations);
-    read(state_->plane_memories, memory.planes);
-    read(energies_, memory.energies);
-    read(meetings_, memory.meetings);
+    Memory memory = empty_memory();
+    state_->clock.download(memory.clock);
+    state_->paces.values.download(memory.paces);
+    state_->accelerations.values.download(memory.accelerations);
+    state_->plane_memories.download(memory.planes);
+    energies_.download(memory.energies);
+    meetings_.download(memory.meetings);
     return memory;
 }
 
 void PartEnd::set_memory(const Memory& memory) {
-    gl::barrier(gl::Barrier::buffer_update);
     state_->clock.upload(memory.clock);
     state_->paces.values.upload(memory.paces);
     state_->accelerations.values.upload(memory.accelerations);

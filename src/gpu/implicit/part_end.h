@@ -43,7 +43,8 @@ public:
     void go_on(std::span<const glm::vec4> positions, std::span<const glm::vec4> velocities,
                std::span<const glm::vec4> earlier_velocities, double step);
 
-    /// All that passes from part to part beside nodes. It blocks until the device has it.
+    /// All that passes from part to part beside nodes. To read it blocks until the device has it, and needs
+    /// barrier(buffer_update) since the last dispatch.
     struct Memory {
         std::vector<StepClock> clock;
         std::vector<BodyPace> paces;
@@ -53,7 +54,9 @@ public:
         std::vector<double> meetings;
     };
     Memory memory() const;
-    /// @pre of as many nodes, objects and colliders
+    /// Of the right sizes.
+    Memory empty_memory() const;
+    /// @pre of these sizes, and barrier(buffer_update) since the last dispatch
     void set_memory(const Memory& memory);
 
     /// By object; and by collider and object, end_sums::kMeeting each.

@@ -64,7 +64,6 @@ ShapeMatcher::ShapeMatcher(const Model& model)
 }
 
 void ShapeMatcher::run(const NodeBuffers& nodes) {
-    gl::barrier(gl::Barrier::buffer_update);
     inverted_.fill(0);
     for (const gl::Program* program : {&count_program_, &sum_program_, &match_program_})
         program->bind("positions", nodes.position_texels);

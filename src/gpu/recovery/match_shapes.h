@@ -14,6 +14,7 @@ class ShapeMatcher {
 public:
     explicit ShapeMatcher(const Model& model);
 
+    /// @pre barrier(buffer_update) since the last dispatch
     /// Ends with the barrier that whoever gathers the nodes as textures or storage needs.
     void run(const NodeBuffers& nodes);
 

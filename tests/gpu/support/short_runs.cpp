@@ -235,6 +235,23 @@ void start_again(Simulator& simulator) {
     simulator.reset();
 }
 
+void resume(Simulator& simulator) {
+    const TemporaryFolder folder;
+    simulator.step();
+    simulator.save_checkpoint(folder.path() / "state.gel");
+    simulator.step();
+    simulator.load_checkpoint(folder.path() / "state.gel");
+}
+
+// A body on a floor, whose steps are made of more parts than tries are launched at first.
+void alone(Scene& scene) {
+    scene.objects.resize(1);
+    scene.objects[0].pins.clear();
+    scene.collision.response = CollisionResponse::contact;
+    scene.collision.self_collision = false;
+    scene.simulation.substeps.reset();
+}
+
 }  // namespace
 
 std::vector<ShortRun> short_runs() {
@@ -246,6 +263,8 @@ std::vector<ShortRun> short_runs() {
     return {
         {"implicit", nothing, start_again, true},
         {"implicit, pulled", nothing, pull},
+        {"implicit, resumed", nothing, resume},
+        {"implicit, alone", alone, start_again},
         {"implicit, dragged", nothing, drag},
         {"implicit, volume term", volume_term, pull},
         {"implicit, neo-Hookean", neo_hookean, pull},

@@ -49,6 +49,15 @@ Model make_stretched_bodies(double damping, double poisson_ratio, MaterialModel 
     return model;
 }
 
+// Its third body lies in one point.
+Model make_fallen_in_tets() {
+    Model model = make_mixed_bodies(0.0, 0.45, MaterialModel::neo_hookean);
+    const Range& point = model.objects[2].nodes;
+    for (std::uint32_t n = point.first; n < point.end(); ++n)
+        model.positions[n] = glm::vec4(0.0f, 1.0f, 1.0f, model.positions[n].w);
+    return model;
+}
+
 double energy_error(const Model& model) {
     return worst_energy_error(model, measure_on_gpu(model));
 }
@@ -135,6 +144,10 @@ Scenarios neo_hookean_step_scenarios() {
             }
         }
     }
+    scenarios.push_back({"point", [] {
+                             return step_error(make_fallen_in_tets(), SolverKind::semi_implicit_euler,
+                                               ForceMethod::fused);
+                         }});
     return scenarios;
 }
 
