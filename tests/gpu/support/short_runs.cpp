@@ -247,6 +247,8 @@ void resume(Simulator& simulator) {
 void alone(Scene& scene) {
     scene.objects.resize(1);
     scene.objects[0].pins.clear();
+    scene.objects[0].handles.clear();
+    scene.objects[0].loads.clear();
     scene.collision.response = CollisionResponse::contact;
     scene.collision.self_collision = false;
     scene.simulation.substeps.reset();
