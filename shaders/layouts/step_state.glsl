@@ -24,7 +24,7 @@ struct StepClock {       // 80 bytes
     uint  unused_1;
 };
 // What a body passes on from part to part, and what its part begins with.
-struct BodyPace {        // 112 bytes
+struct BodyPace {        // 80 bytes
     uint  pace;          // as in cpu::Paces: 0 moving, 1 calm, 2 still
     uint  is_struck;     // 1: it makes its next part by Euler's scheme
     uint  held_count;    // of its nodes, where the last part began
@@ -34,8 +34,6 @@ struct BodyPace {        // 112 bytes
     uint  first_row;     // of this part
     uint  row_end;
     vec4  velocity;      // of what its nodes have in common where the part begins [m/s]; w: mass [kg]
-    vec4  momentum;      // there [kg m/s]
-    vec4  angular;       // about the centre of mass there [kg m^2/s]
     vec4  force;         // by which momentum changed in the last part [N]
     vec4  moment;        // and angular momentum [N m]
 };
@@ -47,12 +45,14 @@ struct PlaneMemory {     // 32 bytes
     float unused_0;
     float unused_1;
 };
-// Sums over a chunk's nodes where a part begins, about the first node of its object.
-struct StartSums {       // 64 bytes
+// Sums over a chunk's nodes where a part begins.
+struct StartSums {       // 48 bytes
     vec4  momentum;      // [kg m/s]; w: mass [kg]
     vec4  carried;       // of held nodes alone
-    vec4  angular;       // [kg m^2/s]; w: how many nodes are held
-    vec4  arm;           // mass times position [kg m]; w: the longest displacement without forces [m]
+    float held_count;
+    float longest;       // displacement without forces [m]
+    float unused_0;
+    float unused_1;
 };
 // The contacts with planes of a chunk of nodes.
 struct ChunkRows {       // 16 bytes

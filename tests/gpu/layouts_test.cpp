@@ -132,25 +132,24 @@ TEST_F(LayoutsTest, StepRows) {
 
 TEST_F(LayoutsTest, StepState) {
     check("step_state.glsl", "StepClock", sizeof(StepClock),
-          {FIELD(StepClock, size),        FIELD(StepClock, left),         FIELD(StepClock, longest),
-           FIELD(StepClock, step),        FIELD(StepClock, last_step),    FIELD(StepClock, gained),
-           FIELD(StepClock, is_over),     FIELD(StepClock, goes_on),      FIELD(StepClock, damps),
-           FIELD(StepClock, has_past),    FIELD(StepClock, divides),      FIELD(StepClock, parts),
-           FIELD(StepClock, tries),       FIELD(StepClock, made),         FIELD(StepClock, is_guarded),
-           FIELD(StepClock, row_count),   FIELD(StepClock, dropped_rows), FIELD(StepClock, begun),
-           FIELD(StepClock, unused_0), FIELD(StepClock, unused_1)});
+          {FIELD(StepClock, size),      FIELD(StepClock, left),         FIELD(StepClock, longest),
+           FIELD(StepClock, step),      FIELD(StepClock, last_step),    FIELD(StepClock, gained),
+           FIELD(StepClock, is_over),   FIELD(StepClock, goes_on),      FIELD(StepClock, damps),
+           FIELD(StepClock, has_past),  FIELD(StepClock, divides),      FIELD(StepClock, parts),
+           FIELD(StepClock, tries),     FIELD(StepClock, made),         FIELD(StepClock, is_guarded),
+           FIELD(StepClock, row_count), FIELD(StepClock, dropped_rows), FIELD(StepClock, begun),
+           FIELD(StepClock, unused_0),  FIELD(StepClock, unused_1)});
     check("step_state.glsl", "BodyPace", sizeof(BodyPace),
           {FIELD(BodyPace, pace), FIELD(BodyPace, is_struck), FIELD(BodyPace, held_count),
            FIELD(BodyPace, is_held), FIELD(BodyPace, past), FIELD(BodyPace, damping),
            FIELD(BodyPace, first_row), FIELD(BodyPace, row_end), FIELD(BodyPace, velocity),
-           FIELD(BodyPace, momentum), FIELD(BodyPace, angular), FIELD(BodyPace, force),
-           FIELD(BodyPace, moment)});
+           FIELD(BodyPace, force), FIELD(BodyPace, moment)});
     check("step_state.glsl", "PlaneMemory", sizeof(PlaneMemory),
           {FIELD(PlaneMemory, hold), FIELD(PlaneMemory, reach), FIELD(PlaneMemory, ease),
            FIELD(PlaneMemory, unused_0), FIELD(PlaneMemory, unused_1)});
     check("step_state.glsl", "StartSums", sizeof(StartSums),
-          {FIELD(StartSums, momentum), FIELD(StartSums, carried), FIELD(StartSums, angular),
-           FIELD(StartSums, arm)});
+          {FIELD(StartSums, momentum), FIELD(StartSums, carried), FIELD(StartSums, held_count),
+           FIELD(StartSums, longest), FIELD(StartSums, unused_0), FIELD(StartSums, unused_1)});
     check("step_state.glsl", "ChunkRows", sizeof(ChunkRows),
           {FIELD(ChunkRows, count), FIELD(ChunkRows, first), FIELD(ChunkRows, nearest),
            FIELD(ChunkRows, deepest)});

@@ -40,6 +40,8 @@ INSTANTIATE_TEST_SUITE_P(SmallIslandRows, MutantsLong,
                          ::testing::ValuesIn(cases(kSmallIslandRowMutants, small_island_scenarios(true))),
                          name_of_case);
 
+INSTANTIATE_TEST_SUITE_P(PartStarts, MutantsLong,
+                         ::testing::ValuesIn(cases(kPartStartMutants, part_start_scenarios())), name_of_case);
 INSTANTIATE_TEST_SUITE_P(PartEnds, MutantsLong,
                          ::testing::ValuesIn(cases(kPartEndMutants, part_end_scenarios())), name_of_case);
 
@@ -53,7 +55,6 @@ INSTANTIATE_MUTANTS(Pulls, kPullMutants, pull_scenarios());
 INSTANTIATE_MUTANTS(ElasticSystem, kElasticSystemMutants, elastic_system_scenarios());
 INSTANTIATE_MUTANTS(StepSystem, kStepSystemMutants, step_system_scenarios());
 INSTANTIATE_MUTANTS(SmallIslands, kSmallIslandMutants, small_island_scenarios(false));
-INSTANTIATE_MUTANTS(PartStart, kPartStartMutants, part_start_scenarios());
 INSTANTIATE_MUTANTS(Matching, kMatchingMutants, matching_scenarios());
 INSTANTIATE_MUTANTS(NeoHookean, kNeoHookeanMutants,
                     joined({neo_hookean_energy_scenarios(), neo_hookean_step_scenarios()}));

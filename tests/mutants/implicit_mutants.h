@@ -136,8 +136,6 @@ inline constexpr Mutant kPartStartMutants[] = {
     {"contacts_are_no_stiffer_than_inertia", "sim/implicit/predict.comp",
      "texelFetch(node_stiffness, int(n)).x / 3.0", "0.0"},
     {"short_parts_have_stiff_contacts", "sim/implicit/predict.comp", "max(step, kFrame)", "step"},
-    {"moments_about_the_first_node", "sim/implicit/begin_bodies.comp",
-     "- cross(sums.arm.xyz, sums.momentum.xyz) / mass", ""},
     {"handles_carry_nothing", "sim/implicit/begin_bodies.comp",
      "held > 0u ? sums.carried.xyz / sums.carried.w :", ""},
     {"what_is_let_go_goes_on", "sim/implicit/begin_bodies.comp", "paces[o].is_struck = 1u;", ""},

@@ -1,6 +1,6 @@
 // What bodies have in common where a part begins, from sums over their chunks: momenta, contacts, how they move on, and whether
 // nodes were let go or taken hold of. A work group a body.
-// CPU twin: gelatin::cpu::Islands::find, gelatin::cpu::TimeScheme::momenta. Parity: tests/gpu/implicit/part_start_test.cpp.
+// CPU twin: gelatin::cpu::Islands::find. Parity: tests/gpu/implicit/part_start_test.cpp.
 const uint kLanes = 64u;
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/group_sums.glsl"
@@ -15,15 +15,13 @@ layout(std430) writeonly buffer RowsOfBodies { BodyRows body_rows[]; };
 layout(std430) buffer Paces { BodyPace paces[]; };
 
 StartSums sum_chunks(uint first, uint end) {
-    StartSums own = StartSums(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    StartSums own = StartSums(vec4(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0);
     for (uint c = first + gl_LocalInvocationID.x; c < end; c += kLanes) {
         own.momentum += part_sums[c].momentum;
         own.carried += part_sums[c].carried;
-        own.angular += part_sums[c].angular;
-        own.arm += part_sums[c].arm;
+        own.held_count += part_sums[c].held_count;
     }
-    return StartSums(sum_over_group(own.momentum), sum_over_group(own.carried), sum_over_group(own.angular),
-                     sum_over_group(own.arm));
+    return StartSums(sum_over_group(own.momentum), sum_over_group(own.carried), sum_over_group(own.held_count), 0.0, 0.0, 0.0);
 }
 
 // And numbers the rows of chunks.
@@ -53,7 +51,7 @@ void main() {
     BodyRows rows = sum_rows(first, end);
     if (gl_LocalInvocationID.x != 0u) return;
     float mass = sums.momentum.w;
-    uint held = uint(sums.angular.w);
+    uint held = uint(sums.held_count);
     bool is_driven = has_forces != 0u || rows.count > 0u;
     vec3 velocity = vec3(0.0);
     if (!is_driven && mass > 0.0) velocity = held > 0u ? sums.carried.xyz / sums.carried.w : sums.momentum.xyz / mass;
@@ -64,6 +62,4 @@ void main() {
     body_rows[o] = rows;
     paces[o].is_held = is_driven || held > 0u ? 1u : 0u;
     paces[o].velocity = vec4(velocity, mass);
-    paces[o].momentum = vec4(sums.momentum.xyz, 0.0);
-    paces[o].angular = vec4(sums.angular.xyz - cross(sums.arm.xyz, sums.momentum.xyz) / mass, 0.0);
 }

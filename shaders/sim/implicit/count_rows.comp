@@ -6,7 +6,7 @@ const uint kLanes = 64u;
 #include "sim/implicit/plane_contacts.glsl"
 layout(local_size_x = 64) in;
 
-uniform samplerBuffer part_sums;  // StartSums of chunks, four texels each
+uniform samplerBuffer part_sums;  // StartSums of chunks, three texels each
 layout(std430) writeonly buffer PlaneNotes { PlaneMemory plane_notes[]; };  // reach: 0 where there is no contact
 layout(std430) writeonly buffer RowsOfChunks { ChunkRows chunk_rows[]; };
 
@@ -15,7 +15,7 @@ float find_slack(uint object, float thickness) {
     float longest = 0.0;
     uint end = texelFetch(chunk_starts, int(object) + 1).x;
     for (uint c = texelFetch(chunk_starts, int(object)).x + gl_LocalInvocationID.x; c < end; c += kLanes)
-        longest = max(longest, texelFetch(part_sums, 4 * int(c) + 3).w);
+        longest = max(longest, texelFetch(part_sums, 3 * int(c) + 2).y);
     return kSlackOfThickness * thickness + kSlackOfMotion * min(max_over_group(longest), kFastest * thickness);
 }
 

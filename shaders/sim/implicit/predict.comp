@@ -1,6 +1,6 @@
 // Where nodes would go in a part without forces of elements and contacts, by how much contacts may move them, and velocities that
 // take held nodes to their goals; by chunk what is asked about bodies. A work group a chunk.
-// CPU twin: gelatin::cpu::ImplicitStep::predict, gelatin::cpu::TimeScheme::momenta. Parity: tests/gpu/implicit/part_start_test.cpp.
+// CPU twin: gelatin::cpu::ImplicitStep::predict. Parity: tests/gpu/implicit/part_start_test.cpp.
 const uint kLanes = 64u;
 #include "layouts/contact_tuning.glsl"
 #include "sim/implicit/acceleration.glsl"
@@ -20,9 +20,8 @@ void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count || !goes_on()) return;
     uvec4 chunk = texelFetch(chunks, int(c));
-    vec3 origin = texelFetch(positions, int(chunk.w)).xyz;
     float step = clock[0].step, left = clock[0].left, least = max(step, kFrame), longest = 0.0;
-    StartSums own = StartSums(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    StartSums own = StartSums(vec4(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0);
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += kLanes) {
         vec4 x = texelFetch(positions, int(n)), v = velocities[n];
         bool is_held = x.w == 0.0;
@@ -39,15 +38,12 @@ void main() {
         }
         predicted[n] = vec4(d, compliance);
         vec4 momentum = mass * vec4(v.xyz, 1.0);
-        vec3 arm = x.xyz - origin;
         own.momentum += momentum;
         if (is_held) own.carried += momentum;
-        own.angular += vec4(cross(arm, momentum.xyz), is_held ? 1.0 : 0.0);
-        own.arm.xyz += mass * arm;
+        if (is_held) own.held_count += 1.0;
         longest = max(longest, length(d));
     }
-    StartSums sums = StartSums(sum_over_group(own.momentum), sum_over_group(own.carried), sum_over_group(own.angular),
-                               sum_over_group(own.arm));
-    sums.arm.w = max_over_group(longest);
+    StartSums sums = StartSums(sum_over_group(own.momentum), sum_over_group(own.carried), sum_over_group(own.held_count),
+                               max_over_group(longest), 0.0, 0.0);
     if (lane == 0u) part_sums[c] = sums;
 }

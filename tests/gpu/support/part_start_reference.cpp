@@ -193,7 +193,6 @@ private:
             paces_.struck()[o] = static_cast<std::uint8_t>(pace.is_struck);
             pace.is_held = islands_.are_held[o];
             pace.velocity = glm::vec4(islands_.velocities[o], islands_.masses[o]);
-            add_momenta(o, pace);
             result.paces.push_back(pace);
         }
         result.clock.has_past = paces_.choose(islands_, step, damps, system_.rows, scheme_) ? 1 : 0;
@@ -201,24 +200,6 @@ private:
             result.paces[o].past = static_cast<float>(scheme_.of(o).past);
             result.paces[o].damping = static_cast<float>(scheme_.of(o).damping);
         }
-    }
-
-    void add_momenta(std::uint32_t o, BodyPace& pace) const {
-        const Range& nodes = model_.objects[o].nodes;
-        glm::dvec3 center(0.0), momentum(0.0), angular(0.0);
-        double mass = 0.0;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            mass += static_cast<double>(model_.masses[n]);
-            center += static_cast<double>(model_.masses[n]) * glm::dvec3(previous_.positions[n]);
-        }
-        center /= mass;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            const glm::dvec3 p = static_cast<double>(model_.masses[n]) * glm::dvec3(previous_.velocities[n]);
-            momentum += p;
-            angular += glm::cross(glm::dvec3(previous_.positions[n]) - center, p);
-        }
-        pace.momentum = glm::vec4(momentum, 0.0);
-        pace.angular = glm::vec4(angular, 0.0);
     }
 
     void find_targets(double step) {
