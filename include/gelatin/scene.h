@@ -34,7 +34,7 @@ struct SimulationSettings {
     ForceMethod forces = ForceMethod::fused;
     double frame_rate = 60.0;     ///< frames a second of simulated time [1/s], > 0
     std::optional<int> substeps;  ///< steps a frame, >= 1; empty: the fewest that are stable
-    int iterations = 10;  ///< of `implicit`: conjugate gradients for each linearisation at most, >= 1
+    int iterations = 10;          ///< of `implicit`: conjugate gradients for each linearisation at most, >= 1
     std::optional<glm::dvec3> gravity;  ///< [m/s^2]; empty: 9.81 downwards (Scene::gravity)
     int frames = 600;                   ///< length of a run, >= 0
     /// Leave bodies out while they rest; for CollisionResponse::contact.

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "gpu/implicit/implicit_solver.h"
 #include "gpu/explicit/explicit_solver.h"
+#include "gpu/implicit/implicit_solver.h"
 
 namespace gelatin::gpu {
 

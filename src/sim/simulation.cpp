@@ -62,8 +62,8 @@ BackendSolver Simulation::make_solver(const Scene& of, const std::shared_ptr<con
         return timed(std::shared_ptr(
             cpu::make_solver<float>(from, settings.solver, settings.forces, of.collision, implicit)));
     if (!has_contacts(*from, of.collision))
-        return timed(
-            std::shared_ptr(gpu::make_solver(from, settings.solver, settings.forces, of.collision, implicit)));
+        return timed(std::shared_ptr(
+            gpu::make_solver(from, settings.solver, settings.forces, of.collision, implicit)));
     return timed(
         std::shared_ptr<gpu::GpuSolver>(std::make_shared<SharedSolver>(from, of.collision, implicit)));
 }

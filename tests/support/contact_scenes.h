@@ -40,12 +40,13 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
 template <class Real>
 cpu::SystemSolver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
                                     int iterations = 10, bool divides_steps = true) {
-    return cpu::SystemSolver<Real>(model,
-                                   CollisionSettings{.response = CollisionResponse::contact,
-                                                     .self_collision = true,
-                                                     .friction = friction,
-                                                     .restitution = 0.0},
-                                   ImplicitSettings{.iterations = iterations, .divides_steps = divides_steps});
+    return cpu::SystemSolver<Real>(
+        model,
+        CollisionSettings{.response = CollisionResponse::contact,
+                          .self_collision = true,
+                          .friction = friction,
+                          .restitution = 0.0},
+        ImplicitSettings{.iterations = iterations, .divides_steps = divides_steps});
 }
 
 /// Makes a step of `step` [s], with what handles and colliders do then. @param number of the step, from 0

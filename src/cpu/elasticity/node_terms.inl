@@ -26,8 +26,8 @@ Vec3<Real> operator*(const SymmetricMatrix<Real>& m, const Vec3<Real>& v) {
                                        m.beside.y * v.x + m.beside.x * v.y);
 }
 
-/// What elements add to a node: a force [N], and how it falls as the node moves, positive semi-definite [N/m].
-/// GLSL twin: shaders/sim/elasticity/node_terms.glsl.
+/// What elements add to a node: a force [N], and how it falls as the node moves, positive semi-definite
+/// [N/m]. GLSL twin: shaders/sim/elasticity/node_terms.glsl.
 template <class Real>
 struct NodeTerms {
     Vec3<Real> force;

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "cpu/implicit/motion.h"
 #include "cpu/implicit/contact_row.h"
+#include "cpu/implicit/motion.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 #include "model/spring_packing.h"

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "cpu/implicit/motion.h"
 #include "cpu/implicit/island_rows.h"
+#include "cpu/implicit/motion.h"
 #include "cpu/implicit/rigid_level.h"
 #include "cpu/nodes.h"
 #include "model/model.h"

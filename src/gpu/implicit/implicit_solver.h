@@ -40,7 +40,7 @@ protected:
 private:
     void make_tries();
     void complete();
-    bool restore(std::string_view memory);
+    bool restore(std::string_view bytes);
 
     bool divides_steps_;
     ContactSurface surface_;
