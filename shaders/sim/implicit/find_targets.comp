@@ -15,7 +15,7 @@ uniform samplerBuffer velocities;     // xyz [m/s]; w: damping time [s]
 uniform samplerBuffer masses;         // [kg]
 uniform samplerBuffer predicted;      // displacements of held nodes [m]
 uniform samplerBuffer accelerations;  // a_0 [m/s^2]
-uniform samplerBuffer paces;          // BodyPace, seven texels each
+uniform samplerBuffer paces;          // BodyPace, five texels each
 uniform uint body_count;
 layout(std430) writeonly buffer Loads { vec4 loads[]; };                  // w: m / h'^2 [N/m]
 layout(std430) writeonly buffer Displacements { vec4 displacements[]; };  // [m]
@@ -48,10 +48,10 @@ void main() {
     vec3 motion = vec3(0.0);  // of the body as a whole [m/s]
     float damping = 0.0, energy = 0.0;
     if (is_body) {
-        vec4 scheme = texelFetch(paces, 7 * int(chunk.x) + 1);
+        vec4 scheme = texelFetch(paces, 5 * int(chunk.x) + 1);
         has_past = scheme.x > 0.0;
         damping = scheme.y;
-        motion = texelFetch(paces, 7 * int(chunk.x) + 2).xyz;
+        motion = texelFetch(paces, 5 * int(chunk.x) + 2).xyz;
     }
     float fall = kAtRest * clock[0].step * length(gravity), rounding = kRoundings * 1.1920929e-7 / clock[0].step;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += kLanes) {

@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 uniform usamplerBuffer chunk_rows;  // ChunkRows, a texel each
 uniform usamplerBuffer body_rows;   // BodyRows, a texel each
 uniform usamplerBuffer islands;     // StepIsland, three texels each
-uniform samplerBuffer paces;        // BodyPace, seven texels each
+uniform samplerBuffer paces;        // BodyPace, five texels each
 uniform uint object_count;
 uniform uint row_capacity;
 layout(std430) readonly buffer PlaneNotes { PlaneMemory plane_notes[]; };
@@ -38,7 +38,7 @@ StepRow row_of(uint c, uint n, PlaneMemory note, uint body) {
         float nearest = uintBitsToFloat(texelFetch(body_rows, int(body)).z);
         row.reach = clamp(gap / nearest, kLeastReach * row.reach, row.reach);
     }
-    row.damping = texelFetch(paces, 7 * int(body) + 1).y / clock[0].step * slope_of(row, gap);
+    row.damping = texelFetch(paces, 5 * int(body) + 1).y / clock[0].step * slope_of(row, gap);
     return row;
 }
 
