@@ -300,8 +300,8 @@ inline constexpr Mutant kPartEndMutants[] = {
 inline constexpr Mutant kStepRowMutants[] = {
     {"the_first_body_decides_the_end", "sim/implicit/solve_system.glsl",
      "return turn * object_count + island", "return turn * object_count"},
-    {"half_of_a_group_is_summed", "sim/implicit/group_sums.glsl", "k < 16u * lane + 16u",
-     "k < 16u * lane + 8u"},
+    {"half_of_a_group_is_summed", "sim/implicit/group_sums.glsl", "k < 16u * lane + 16u; ++k) sum",
+     "k < 16u * lane + 8u; ++k) sum"},
     {"contacts_pull", "sim/implicit/rows.glsl",
      "return max(force_of(row, row.normal.w + moved) - row.damping * moved, 0.0);",
      "return force_of(row, row.normal.w + moved) - row.damping * moved;"},
