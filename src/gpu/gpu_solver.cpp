@@ -22,7 +22,23 @@ CollisionStages GpuSolver::collision_stages() {
     return {buffers_, *collision_};
 }
 
+void GpuSolver::set_pulls(std::vector<Pull> pulls) {
+    complete();
+    buffers_.pulls.set_pulls(std::move(pulls));
+}
+
+void GpuSolver::move_pull(std::size_t pull, const glm::dvec3& target) {
+    complete();
+    buffers_.pulls.move_pull(pull, target);
+}
+
+void GpuSolver::set_forces(std::span<const glm::vec3> forces) {
+    complete();
+    buffers_.pulls.set_forces(forces);
+}
+
 void GpuSolver::advance(const Step& step) {
+    complete();
     StageTimer& timer = stage_timer();
     if (!step.motions.empty()) {
         const Stage stage(timer, "apply_kinematics");
@@ -33,6 +49,7 @@ void GpuSolver::advance(const Step& step) {
         advance_nodes(step);
     }
     if (!collision_) return;
+    complete();  // the response is to whole steps
     CollisionStages stages = collision_stages();
     run_collision_stages(plan_, stages, step.size, previous_, current_, timer);
 }
@@ -54,12 +71,14 @@ const gl::Buffer<Box>& GpuSolver::update_tree_boxes() {
 }
 
 void GpuSolver::begin_measure() {
+    complete();
     measure_.begin(buffers_, current_, collision_ ? &collision_->buffers : nullptr,
                    collision_ && collision_->self ? &collision_->self->buffers : nullptr,
                    plan_.proximities ? &collision_->near->buffers : nullptr);
 }
 
 State GpuSolver::read_state() {
+    complete();
     gl::barrier(gl::Barrier::buffer_update);
     State state;
     state.positions.resize(model_->positions.size());
@@ -74,6 +93,7 @@ State GpuSolver::read_state() {
 }
 
 void GpuSolver::write_state(const State& state) {
+    complete();
     gl::barrier(gl::Barrier::buffer_update);
     for (NodeBuffers* nodes : {&current_, &previous_}) {
         nodes->positions.upload(state.positions);

@@ -23,11 +23,9 @@ namespace gelatin::gpu {
 class GpuSolver : public Solver {
 public:
     void advance(const Step& step) final;
-    void set_pulls(std::vector<Pull> pulls) override { buffers_.pulls.set_pulls(std::move(pulls)); }
-    void move_pull(std::size_t pull, const glm::dvec3& target) override {
-        buffers_.pulls.move_pull(pull, target);
-    }
-    void set_forces(std::span<const glm::vec3> forces) override { buffers_.pulls.set_forces(forces); }
+    void set_pulls(std::vector<Pull> pulls) override;
+    void move_pull(std::size_t pull, const glm::dvec3& target) override;
+    void set_forces(std::span<const glm::vec3> forces) override;
     void watch_nodes(std::uint32_t step_number, double most_energy) override {
         watch_nodes_.run(buffers_, current_, step_number, most_energy);
     }
@@ -55,6 +53,9 @@ public:
 protected:
     GpuSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision);
 
+    /// Makes what is left of the step before, where a device was not given all of it at once: before nodes
+    /// are read, or anything changes that the step depends on.
+    virtual void complete() {}
     virtual void apply_kinematics(std::span<const HandleMotion> motions);
     /// Forces and integration, collisions with colliders included.
     virtual void advance_nodes(const Step& step) = 0;

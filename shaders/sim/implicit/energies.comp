@@ -27,7 +27,7 @@ uniform usamplerBuffer elements;        // of each object: first spring, springs
 uniform vec3 gravity;                   // [m/s^2]
 layout(std430) writeonly buffer EnergySums { double energy_sums[]; };  // by chunk
 #if defined(KEEP) || defined(STOP) || defined(GUARDED)
-layout(std430) readonly buffer Clock { StepClock clock[]; };
+#include "sim/implicit/clock.glsl"
 #endif
 #if defined(KEEP) || defined(STOP)
 layout(std430) buffer EndVelocities { vec4 end_velocities[]; };
@@ -107,12 +107,12 @@ bool has_to(uint object) {
     uint end = texelFetch(chunk_starts, int(object) + 1).x;
     for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c)
         any = any || guard_sums[c * kGuardSums + kHeldBack] > 0.0LF;
-    return any && clock[0].goes_on != 0u && clock[0].is_over == 0u;
+    return any && goes_on();
 }
 #elif defined(STOP)
-bool has_to(uint object) { return changes[object].action == 3u && clock[0].goes_on != 0u && clock[0].is_over == 0u; }
+bool has_to(uint object) { return changes[object].action == 3u && goes_on(); }
 #elif defined(KEEP)
-bool has_to(uint object) { return clock[0].goes_on != 0u && clock[0].is_over == 0u; }
+bool has_to(uint object) { return goes_on(); }
 #else
 bool has_to(uint object) { return true; }
 #endif

@@ -8,6 +8,7 @@ const uint kLanes = 64u;
 #include "sim/implicit/acceleration.glsl"
 #include "sim/implicit/group_sums.glsl"
 #include "sim/implicit/node_chunks.glsl"
+#include "sim/implicit/time_scheme.glsl"
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer positions;      // xyz [m]; w: inverse mass, 0: held
@@ -22,16 +23,6 @@ layout(std430) writeonly buffer Displacements { vec4 displacements[]; };  // [m]
 layout(std430) writeonly buffer DampingTimes { float damping_times[]; };  // [s]
 layout(std430) writeonly buffer Energies { float energies[]; };           // by chunk [J]
 
-const float kAlpha = (1.0 - kLeftOfFast) / (1.0 + kLeftOfFast);  // of Newmark's scheme
-
-// xyz: y - x [m]; w: m / h'^2
-vec4 target(uint n, vec4 x, vec3 v, bool has_past) {
-    float h = clock[0].step, inner = has_past ? 0.5 * h * sqrt(1.0 + kAlpha) : h;
-    vec3 d = h * v + inner * inner * acceleration(n, x.w);
-    if (has_past) d += 0.25 * (1.0 - kAlpha) * h * h * texelFetch(accelerations, int(n)).xyz;
-    return vec4(d, 1.0 / (x.w * inner * inner));
-}
-
 // A hand pulls like inertia does, to a place of its own.
 vec4 pulled(uint n, vec4 wanted, vec3 x) {
     vec4 spring = texelFetch(pulls, 2 * int(n)), force = texelFetch(pulls, 2 * int(n) + 1);
@@ -44,13 +35,13 @@ void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count || !goes_on()) return;
     uvec4 chunk = texelFetch(chunks, int(c));
-    bool is_body = chunk.x < body_count, has_past = false;
+    Scheme scheme = scheme_of(clock[0].step, 0.0);
     vec3 motion = vec3(0.0);  // of the body as a whole [m/s]
     float damping = 0.0, energy = 0.0;
-    if (is_body) {
-        vec4 scheme = texelFetch(paces, 5 * int(chunk.x) + 1);
-        has_past = scheme.x > 0.0;
-        damping = scheme.y;
+    if (chunk.x < body_count) {
+        vec4 pace = texelFetch(paces, 5 * int(chunk.x) + 1);
+        scheme = scheme_of(clock[0].step, pace.x);
+        damping = pace.y;
         motion = texelFetch(paces, 5 * int(chunk.x) + 2).xyz;
     }
     float fall = kAtRest * clock[0].step * length(gravity), rounding = kRoundings * 1.1920929e-7 / clock[0].step;
@@ -58,7 +49,8 @@ void main() {
         vec4 x = texelFetch(positions, int(n)), v = texelFetch(velocities, int(n));
         vec4 wanted = vec4(texelFetch(predicted, int(n)).xyz, 0.0);
         if (x.w > 0.0) {
-            wanted = target(n, x, v.xyz, has_past);
+            wanted.xyz = target_by(scheme, v.xyz, acceleration(n, x.w), texelFetch(accelerations, int(n)).xyz);
+            wanted.w = 1.0 / (x.w * inner_size(scheme) * inner_size(scheme));
             if (is_pulled != 0u) wanted = pulled(n, wanted, x.xyz);
         }
         loads[n] = vec4(0.0, 0.0, 0.0, wanted.w);

@@ -2,25 +2,25 @@
 // grow. What contacts with planes pass on; what acts on free bodies and how they move, by chunk. A work group a chunk.
 // CPU twins: gelatin::cpu::RigidLevel::rotate, TimeScheme::velocity, ContactRows::note. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kSums = 36u;  // kFinishSums
-#include "layouts/step_state.glsl"
 #include "sim/drive/load_force.glsl"
 #include "sim/drive/pull.glsl"
 #include "sim/implicit/lane_sums.glsl"
 #include "sim/implicit/rows.glsl"
+#include "sim/implicit/clock.glsl"
 #include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/body_sums.glsl"
+#include "sim/implicit/inverse_inertia.glsl"
+#include "sim/implicit/sum_of_motions.glsl"
 #include "sim/implicit/time_scheme.glsl"
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer velocities;     // where the part begins [m/s]; w: damping time [s]
 uniform samplerBuffer accelerations;  // a_0 [m/s^2]
-uniform samplerBuffer base_sums;      // ResidualSums of chunks, two texels each
 uniform samplerBuffer slips;          // s of rows [m]; w: limit of friction [N]
 uniform usamplerBuffer entry_starts;  // of each node, and the end
 uniform usamplerBuffer row_entries;   // 4 row + place of the node in it
 uniform vec3 gravity;                 // [m/s^2]
-uniform uint collider_count;
 uniform uint body_node_count;
-layout(std430) readonly buffer Clock { StepClock clock[]; };
 layout(std430) readonly buffer Paces { BodyPace paces[]; };
 layout(std430) readonly buffer Rows { StepRow rows[]; };
 layout(std430) buffer Displacements { vec4 displacements[]; };  // d [m]
@@ -31,16 +31,8 @@ layout(std430) writeonly buffer FinishSums { double finish_sums[]; };  // by chu
 
 // Of free bodies.
 BodyMotion rigid_motion(uint object) {
-    vec3 force = vec3(0.0), moment = vec3(0.0);
-    uint end = texelFetch(chunk_starts, int(object) + 1).x;
-    for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) {
-        force += texelFetch(base_sums, 2 * int(c)).xyz;
-        moment += texelFetch(base_sums, 2 * int(c) + 1).xyz;
-    }
-    int first = 5 * int(object);
-    vec3 d = texelFetch(bodies, first + 1).xyz, b = texelFetch(bodies, first + 2).xyz;
-    mat3 inverse_inertia = mat3(d.x, b.z, b.y, b.z, d.y, b.x, b.y, b.x, d.z);
-    return BodyMotion(vec4(texelFetch(bodies, first).w * force, 0.0), vec4(inverse_inertia * moment, 0.0));
+    ResidualSums sum = sum_of_motions(object);
+    return BodyMotion(texelFetch(bodies, 5 * int(object)).w * sum.force, vec4(inverse_inertia_of(object) * sum.moment.xyz, 0.0));
 }
 
 // What the displacement at r differs by if the rotation w is a true one: of (sin t / t - 1) and (1 - cos t) / t^2 nothing cancels, and
@@ -60,7 +52,7 @@ vec3 by_true_rotation(BodyMotion motion, vec3 r, vec3 d) {
     return lack * turned + across * cross(w, turned) + (1.0 + lack) * cross(w, rest) + across * cross(w, cross(w, rest));
 }
 
-// Of contacts with planes.
+// Of contacts with planes; count_rows.comp has noted where there are none.
 void note(uint n, StepRow row, vec3 s) {
     float limit = row.friction * pressing(row, s);
     vec3 hold = limit > 0.0 ? held_at(row, s, limit) : vec3(0.0);
@@ -87,7 +79,7 @@ vec3 force_on(uint n, vec3 x, vec3 d) {
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || clock[0].goes_on == 0u || clock[0].is_over != 0u) return;
+    if (c >= chunk_count || !goes_on()) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     bool is_free = texelFetch(bodies, 5 * int(chunk.x)).w > 0.0;
     vec3 center = center_of(chunk.x);
@@ -99,8 +91,6 @@ void main() {
           arms = dvec3(0.0LF);
     double kinetic = 0.0LF, potential = 0.0LF;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
-        for (uint k = 0u; k < collider_count && n < body_node_count; ++k)
-            notes[k * body_node_count + n] = PlaneMemory(vec4(0.0), 0.0, 0.0, 0.0, 0.0);
         vec4 x = texelFetch(positions, int(n)), v = texelFetch(velocities, int(n));
         vec3 d = displacements[n].xyz, force = force_on(n, x.xyz, d);
         if (is_free) d += by_true_rotation(rigid, x.xyz - center, d);

@@ -6,22 +6,16 @@
 #include "sim/implicit/clock.glsl"
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/body_sums.glsl"
+#include "sim/implicit/sum_of_motions.glsl"
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer velocities;  // xyz [m/s]
-layout(std430) readonly buffer BaseSums { ResidualSums base_sums[]; };         // of displacements, weighted by inertia
 layout(std430) readonly buffer ElasticForces { vec4 elastic_forces[]; };       // [N]
 layout(std430) buffer Displacements { vec4 displacements[]; };                 // d, xyz [m]
 layout(std430) buffer Loads { vec4 all_loads[]; };                             // m / h^2 (y - x) + f [N]; w: m / h^2 [N/m]
 
 vec3 rotation_of(uint object) {
-    vec4 force = vec4(0.0), moment = vec4(0.0);
-    uint end = texelFetch(chunk_starts, int(object) + 1).x;
-    for (uint c = texelFetch(chunk_starts, int(object)).x + gl_LocalInvocationID.x; c < end; c += 64u) {
-        force += base_sums[c].force;
-        moment += base_sums[c].moment;
-    }
-    ResidualSums sum = sum_by_lanes(force, moment.xyz);
+    ResidualSums sum = sum_of_motions(object);
     return times(fetch_inverse(object), BodyMotion(sum.force, sum.moment)).rotation.xyz;
 }
 

@@ -1,7 +1,7 @@
 // Nodes go no farther into colliders than they were, and keep a part of their gaps; a work group a chunk.
 // CPU twins: gelatin::cpu::Guard, ImplicitStep::stop_guarded. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kSums = 8u;  // kGuardSums
-#include "layouts/step_state.glsl"
+#include "sim/implicit/clock.glsl"
 #include "sim/collision/colliders.glsl"
 #include "sim/implicit/lane_sums.glsl"
 #include "sim/implicit/rows.glsl"
@@ -10,23 +10,24 @@ layout(local_size_x = 64) in;
 
 uniform samplerBuffer displacements;  // d, xyz [m]
 uniform samplerBuffer thicknesses;    // of objects [m]
-layout(std430) readonly buffer Clock { StepClock clock[]; };
 layout(std430) readonly buffer FinishSums { double finish_sums[]; };  // by chunk
 layout(std430) buffer EndPositions { vec4 end_positions[]; };
 layout(std430) writeonly buffer GuardSums { double guard_sums[]; };   // by chunk
 
+shared double body_sums[4];  // mass, mass times displacement
+
 // What a free body's nodes have in common [m]. It does not go into a plane as a whole.
 vec3 frame_of(uint object) {
-    if (!(texelFetch(bodies, 5 * int(object)).w > 0.0)) return vec3(0.0);
-    dvec3 moved = dvec3(0.0LF);
-    double mass = 0.0LF;
-    uint end = texelFetch(chunk_starts, int(object) + 1).x;
-    for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) {
-        uint at = c * kFinishSums;
-        mass += finish_sums[at + kMass];
-        moved += dvec3(finish_sums[at + kMoved], finish_sums[at + kMoved + 1u], finish_sums[at + kMoved + 2u]);
+    uint lane = gl_LocalInvocationID.x, end = texelFetch(chunk_starts, int(object) + 1).x;
+    if (lane < 4u) {
+        uint k = lane == 0u ? kMass : kMoved + lane - 1u;
+        double sum = 0.0LF;
+        for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) sum += finish_sums[c * kFinishSums + k];
+        body_sums[lane] = sum;
     }
-    vec3 frame = vec3(moved / mass);
+    barrier();
+    if (!(texelFetch(bodies, 5 * int(object)).w > 0.0)) return vec3(0.0);
+    vec3 frame = vec3(dvec3(body_sums[1], body_sums[2], body_sums[3]) / body_sums[0]);
     for (uint p = 0u; p < collider_ends.x; ++p) {
         vec3 normal = collider_center(p).xyz;
         frame -= min(dot(normal, frame), 0.0) * normal;
@@ -69,7 +70,7 @@ vec4 place(vec3 from, vec3 to, float thickness, vec3 frame) {
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || clock[0].goes_on == 0u || clock[0].is_over != 0u) return;
+    if (c >= chunk_count || !goes_on()) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     vec3 center = center_of(chunk.x), frame = frame_of(chunk.x);
     float thickness = texelFetch(thicknesses, int(chunk.x)).x;

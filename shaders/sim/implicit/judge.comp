@@ -51,7 +51,7 @@ uint pace_of(uint o, float mass) {
 void main() {
     uint lane = gl_LocalInvocationID.x;
     StepClock now = clock[0];
-    if (now.goes_on == 0u || now.is_over != 0u) return;
+    if (now.goes_on == 0u) return;
     float gained = 0.0;
 #ifdef GUARDED
     float is_guarded = 0.0;

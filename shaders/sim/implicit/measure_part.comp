@@ -3,13 +3,14 @@
 // CPU twins: gelatin::cpu::EnergyAccount, Paces::find, Restitution. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kSums = 10u;  // kPressedSums; of kPartSums fewer are summed here
 #define PRODUCTS
-#include "layouts/step_state.glsl"
+#include "sim/implicit/clock.glsl"
 #include "sim/drive/load_force.glsl"
 #include "sim/drive/pull.glsl"
 #include "sim/implicit/lane_sums.glsl"
 #include "sim/implicit/half_edges.glsl"
 #include "sim/implicit/rows.glsl"
 #include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/inverse_inertia.glsl"
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer velocities;     // where the part ends [m/s]
@@ -18,7 +19,6 @@ uniform usamplerBuffer entry_starts;  // of each node, and the end
 uniform usamplerBuffer row_entries;   // 4 row + place of the node in it
 uniform samplerBuffer colliders;      // Collider, four texels each
 uniform uint collider_count;
-layout(std430) readonly buffer Clock { StepClock clock[]; };
 layout(std430) readonly buffer Paces { BodyPace paces[]; };
 layout(std430) readonly buffer Rows { StepRow rows[]; };
 layout(std430) readonly buffer ElasticForces { vec4 elastic_forces[]; };  // where the part begins [N]
@@ -27,25 +27,22 @@ layout(std430) readonly buffer EnergySums { double energy_sums[]; };      // by 
 layout(std430) writeonly buffer PartSums { double part_sums[]; };         // by chunk
 layout(std430) writeonly buffer PressedSums { double pressed_sums[]; };   // by collider and chunk
 
-double sum_of_body(uint object, uint k) {
-    double sum = 0.0LF;
-    uint end = texelFetch(chunk_starts, int(object) + 1).x;
-    for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) sum += energy_sums[c * kEnergySums + k];
-    return sum;
-}
-dvec3 sums_of_body(uint object, uint k) {
-    return dvec3(sum_of_body(object, k), sum_of_body(object, k + 1u), sum_of_body(object, k + 2u));
-}
+shared double body_sums[6];  // momentum, angular momentum
 
 // The rigid part of the velocities of a free body, with the arms where the part began [m/s], [rad/s].
 BodyMotion rigid_velocity(uint object) {
-    int first = 5 * int(object);
-    if (!(texelFetch(bodies, first).w > 0.0)) return BodyMotion(vec4(0.0), vec4(0.0));
-    vec3 d = texelFetch(bodies, first + 1).xyz, b = texelFetch(bodies, first + 2).xyz;
-    mat3 inverse_inertia = mat3(d.x, b.z, b.y, b.z, d.y, b.x, b.y, b.x, d.z);
-    float mass = paces[object].velocity.w, weight = texelFetch(bodies, first + 3).w / mass;
-    return BodyMotion(vec4(vec3(sums_of_body(object, kMomentum)) / mass, 0.0),
-                      vec4(weight * (inverse_inertia * vec3(sums_of_body(object, kTurning))), 0.0));
+    uint lane = gl_LocalInvocationID.x, end = texelFetch(chunk_starts, int(object) + 1).x;
+    if (lane < 6u) {
+        uint k = lane < 3u ? kMomentum + lane : kTurning + lane - 3u;
+        double sum = 0.0LF;
+        for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c) sum += energy_sums[c * kEnergySums + k];
+        body_sums[lane] = sum;
+    }
+    barrier();
+    if (!(texelFetch(bodies, 5 * int(object)).w > 0.0)) return BodyMotion(vec4(0.0), vec4(0.0));
+    vec3 momentum = vec3(body_sums[0], body_sums[1], body_sums[2]), angular = vec3(body_sums[3], body_sums[4], body_sums[5]);
+    float mass = paces[object].velocity.w, weight = texelFetch(bodies, 5 * int(object) + 3).w / mass;
+    return BodyMotion(vec4(momentum / mass, 0.0), vec4(weight * (inverse_inertia_of(object) * angular), 0.0));
 }
 
 // On a node where the part begins and its displacement d [J].
@@ -64,7 +61,7 @@ float work_on(uint n, vec4 x, vec3 d) {
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || clock[0].goes_on == 0u || clock[0].is_over != 0u) return;
+    if (c >= chunk_count || !goes_on()) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     vec3 center = center_of(chunk.x);
     BodyMotion rigid = rigid_velocity(chunk.x);

@@ -11,6 +11,7 @@ const uint kLanes = 128u;
 layout(local_size_x = 128) in;
 
 uniform samplerBuffer bodies;  // StepBody, five texels each
+#include "sim/implicit/inverse_inertia.glsl"
 layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) buffer Paces { BodyPace paces[]; };
 layout(std430) buffer BodyEnergies { BodyEnergy energies[]; };
@@ -20,11 +21,8 @@ bool is_finite(float x) { return !isinf(x) && !isnan(x); }
 
 // The rigid part of velocities, for momentum and angular momentum about the centre where the part began. @param mass [kg]
 void rigid_velocity(uint o, double mass, dvec3 momentum, dvec3 angular, out dvec3 velocity, out dvec3 spin) {
-    int first = 5 * int(o);
-    vec3 d = texelFetch(bodies, first + 1).xyz, b = texelFetch(bodies, first + 2).xyz;
-    dmat3 inverse_inertia = dmat3(mat3(d.x, b.z, b.y, b.z, d.y, b.x, b.y, b.x, d.z));
     velocity = momentum / mass;
-    spin = double(texelFetch(bodies, first + 3).w) / mass * (inverse_inertia * angular);
+    spin = double(texelFetch(bodies, 5 * int(o) + 3).w) / mass * (dmat3(inverse_inertia_of(o)) * angular);
 }
 
 // How fast a free body's momenta have changed. @param angular momentum about its centre of mass
@@ -102,7 +100,7 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     StepClock now = clock[0];
     float gained = 0.0, shortest = now.size / float(kMostParts);
-    bool is_tried = now.goes_on != 0u && now.is_over == 0u;
+    bool is_tried = now.goes_on != 0u;
     double motion[kMotionSums];
     for (uint o = lane; is_tried && o < object_count; o += kLanes) {
         find_motion(o, motion);

@@ -2,19 +2,18 @@
 // CPU twin: gelatin::cpu::EnergyAccount. Parity: tests/gpu/implicit/part_end_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/end_sums.glsl"
-#include "layouts/step_state.glsl"
+#include "sim/implicit/clock.glsl"
 layout(local_size_x = 64) in;
 
 uniform usamplerBuffer chunk_starts;  // of each object, and the end
 uniform uint object_count;
-layout(std430) readonly buffer Clock { StepClock clock[]; };
 layout(std430) readonly buffer EnergySums { double energy_sums[]; };  // by chunk
 layout(std430) readonly buffer PartSums { double part_sums[]; };      // by chunk
 layout(std430) writeonly buffer ObjectSums { double object_sums[]; };
 
 void main() {
     uint o = group_index(), k = gl_LocalInvocationID.x;
-    if (o >= object_count || clock[0].goes_on == 0u || clock[0].is_over != 0u || k >= kObjectSums) return;
+    if (o >= object_count || !goes_on() || k >= kObjectSums) return;
     double sum = 0.0LF;
     uint end = texelFetch(chunk_starts, int(o) + 1).x;
     for (uint c = texelFetch(chunk_starts, int(o)).x; c < end; ++c) {

@@ -1,5 +1,5 @@
 // What the displacements of nodes are to their body as a rigid one, weighted by inertia, by chunk. A work group a chunk.
-// CPU twin: gelatin::cpu::RigidLevel::rigid_part. Parity: tests/gpu/implicit/part_start_test.cpp.
+// CPU twin: gelatin::cpu::RigidLevel::rigid_part. Parity: tests/gpu/implicit/part_start_test.cpp, part_end_test.cpp.
 #include "sim/implicit/clock.glsl"
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/body_sums.glsl"

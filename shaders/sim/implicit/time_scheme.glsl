@@ -14,6 +14,15 @@ Scheme scheme_of(float size, float past) {
     return Scheme(size, past, alpha, 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha);
 }
 
+// h' [s]: the step whose inertia m / h'^2 the scheme has.
+float inner_size(Scheme s) { return s.past > 0.0 ? 0.5 * s.size * sqrt(1.0 + s.alpha) : s.size; }
+
+// y - x [m]: where inertia and what acts on a node take it. @param before a_0 [m/s^2]
+vec3 target_by(Scheme s, vec3 velocity, vec3 acceleration, vec3 before) {
+    float inner = inner_size(s);
+    return s.size * velocity + inner * inner * acceleration + s.past * 0.25 * (1.0 - s.alpha) * s.size * s.size * before;
+}
+
 // At the end, of a node that was displaced by d [m/s]. @param acceleration a_0 [m/s^2]
 vec3 velocity_by(Scheme s, vec3 velocity, vec3 acceleration, vec3 d) {
     float h = s.size;

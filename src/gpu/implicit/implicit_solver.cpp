@@ -65,18 +65,7 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
     set_contact_distances({surface_.thicknesses.begin(), surface_.thicknesses.end()});
 }
 
-void ImplicitSolver::begin_measure() {
-    complete();
-    GpuSolver::begin_measure();
-}
-
-State ImplicitSolver::read_state() {
-    complete();
-    return GpuSolver::read_state();
-}
-
 void ImplicitSolver::write_state(const State& state) {
-    complete();
     GpuSolver::write_state(state);
     goes_on_ = false;
     if (restore(state.memory)) return;
@@ -102,15 +91,9 @@ bool ImplicitSolver::restore(std::string_view bytes) {
     return archive.is_complete();
 }
 
-void ImplicitSolver::apply_kinematics(std::span<const HandleMotion> motions) {
-    complete();
-    GpuSolver::apply_kinematics(motions);
-}
-
 void ImplicitSolver::advance_nodes(const Step& step) {
-    complete();
     if (std::exchange(goes_on_, false)) {
-        const State state = GpuSolver::read_state();
+        const State state = read_state();
         end_.go_on(state.positions, state.velocities, state.earlier_velocities, step.size);
     }
     loads_ = loads_of(step);

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,18 +27,15 @@ public:
     explicit ImplicitSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision = {},
                             const ImplicitSettings& settings = {});
 
-    void begin_measure() override;
-    State read_state() override;
     std::string memory() override;
     void write_state(const State& state) override;
 
 protected:
-    void apply_kinematics(std::span<const HandleMotion> motions) override;
+    void complete() override;
     void advance_nodes(const Step& step) override;
 
 private:
     void make_tries();
-    void complete();
     bool restore(std::string_view bytes);
 
     bool divides_steps_;

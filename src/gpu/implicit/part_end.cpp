@@ -31,7 +31,7 @@ gl::Buffer<double> zeros(std::size_t count) {
 }  // namespace
 
 PartEnd::Programs::Programs(const Model& model)
-    : finish_sums(gl::Program::compute("sim/implicit/finish_sums.comp")),
+    : sum_motions(gl::Program::compute("sim/implicit/sum_motions.comp")),
       finish(gl::Program::compute("sim/implicit/finish.comp", SumLoads::defines(model))),
       keep(energies_program(model, {"KEEP"})),
       measure(gl::Program::compute("sim/implicit/measure_part.comp", SumLoads::defines(model))),
@@ -47,7 +47,7 @@ PartEnd::Programs::Programs(const Model& model)
       begin_energies(gl::Program::compute("sim/implicit/begin_energies.comp")) {}
 
 std::vector<const gl::Program*> PartEnd::Programs::all() const {
-    return {&finish_sums,     &finish,        &keep, &measure, &sum_chunks, &judge,         &guard,
+    return {&sum_motions,     &finish,        &keep, &measure, &sum_chunks, &judge,         &guard,
             &measure_guarded, &judge_guarded, &stop, &settle,  &commit,     &find_energies, &begin_energies};
 }
 
@@ -56,6 +56,7 @@ PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system)
       system_(&system),
       chunk_count_(system.buffers().chunk_count),
       object_count_(system.buffers().object_count),
+      has_colliders_(!model.colliders.empty()),
       masses_(model.masses),
       programs_(model),
       springs_(model.springs, gl::TexelFormat::rgba32ui),
@@ -111,7 +112,7 @@ void PartEnd::bind_buffers(const Model& model) const {
 void PartEnd::bind_nodes() const {
     const NodeBuffers &from = state_->from, &to = state_->to;
     const Programs& p = programs_;
-    for (const gl::Program* program : {&p.finish_sums, &p.finish, &p.measure, &p.guard})
+    for (const gl::Program* program : {&p.sum_motions, &p.finish, &p.measure, &p.guard})
         program->bind("positions", from.position_texels);
     p.finish.bind("velocities", from.velocity_texels);
     p.measure.bind("velocities", to.velocity_texels);
@@ -153,17 +154,19 @@ void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* 
     for (const gl::Program* program : {&p.measure, &p.settle}) program->bind("colliders", model.colliders);
     {
         const TimedStage part(timer, "advance_nodes.finish");
-        for (const gl::Program* program : {&p.finish_sums, &p.finish, &p.keep, &p.measure})
+        for (const gl::Program* program : {&p.sum_motions, &p.finish, &p.keep, &p.measure})
             run(*program, chunk_count_);
         run(p.sum_chunks, object_count_);
         run(p.judge, 1);
     }
     const TimedStage part(timer, "advance_nodes.guard");
-    for (const gl::Program* program : {&p.guard, &p.measure_guarded}) run(*program, chunk_count_);
-    run(p.sum_chunks, object_count_);
-    run(p.judge_guarded, 1);
-    run(p.stop, chunk_count_);
-    run(p.sum_chunks, object_count_);
+    if (has_colliders_) {
+        for (const gl::Program* program : {&p.guard, &p.measure_guarded}) run(*program, chunk_count_);
+        run(p.sum_chunks, object_count_);
+        run(p.judge_guarded, 1);
+        run(p.stop, chunk_count_);
+        run(p.sum_chunks, object_count_);
+    }
     run(p.settle, 1);
     run(p.commit, chunk_count_);
 }

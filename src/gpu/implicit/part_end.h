@@ -67,7 +67,7 @@ private:
     struct Programs {
         explicit Programs(const Model& model);
         std::vector<const gl::Program*> all() const;
-        gl::Program finish_sums, finish, keep, measure, sum_chunks, judge, guard, measure_guarded,
+        gl::Program sum_motions, finish, keep, measure, sum_chunks, judge, guard, measure_guarded,
             judge_guarded, stop, settle, commit, find_energies, begin_energies;
     };
     void bind_buffers(const Model& model) const;
@@ -77,6 +77,7 @@ private:
     StepState* state_;
     StepSystem* system_;
     std::uint32_t chunk_count_, object_count_;
+    bool has_colliders_;         // else there is nothing to be kept outside
     std::vector<Range> nodes_;   // of objects
     std::vector<float> masses_;  // of nodes
     Programs programs_;

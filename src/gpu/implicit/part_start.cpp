@@ -18,7 +18,7 @@ PartStart::Programs::Programs(const Model& model, bool rows)
     : begin_step(gl::Program::compute("sim/implicit/begin_step.comp")),
       begin_try(gl::Program::compute("sim/implicit/begin_try.comp")),
       predict(gl::Program::compute("sim/implicit/predict.comp", SumLoads::defines(model))),
-      begin_bodies(gl::Program::compute("sim/implicit/begin_bodies.comp")),
+      sum_bodies(gl::Program::compute("sim/implicit/sum_bodies.comp")),
       place_rows(gl::Program::compute("sim/implicit/place_rows.comp")),
       find_targets(gl::Program::compute("sim/implicit/find_targets.comp", SumLoads::defines(model))),
       find_enough(gl::Program::compute("sim/implicit/find_enough.comp")),
@@ -32,9 +32,9 @@ PartStart::Programs::Programs(const Model& model, bool rows)
 }
 
 std::vector<const gl::Program*> PartStart::Programs::all() const {
-    std::vector<const gl::Program*> all = {&begin_step,   &begin_try,   &predict,
-                                           &begin_bodies, &place_rows,  &find_targets,
-                                           &find_enough,  &sum_motions, &follow_rotation};
+    std::vector<const gl::Program*> all = {&begin_step,  &begin_try,   &predict,
+                                           &sum_bodies,  &place_rows,  &find_targets,
+                                           &find_enough, &sum_motions, &follow_rotation};
     if (has_rows) all.insert(all.end(), {&count_rows, &make_rows});
     return all;
 }
@@ -102,7 +102,7 @@ void PartStart::run(const ModelBuffers& model, const SumLoads* loads, StageTimer
         program->set("gravity", model.gravity);
     }
     model.pulls.bind(p.find_targets);
-    p.begin_bodies.set("has_forces", loads != nullptr || model.pulls.is_acting() ? 1u : 0u);
+    p.sum_bodies.set("has_forces", loads != nullptr || model.pulls.is_acting() ? 1u : 0u);
     {
         const TimedStage part(timer, "advance_nodes.detect");
         find_rows(model);
@@ -124,7 +124,7 @@ void PartStart::find_rows(const ModelBuffers& model) const {
         model.bind_colliders(p.count_rows);
         run(p.count_rows, chunk_count_);
     }
-    run(p.begin_bodies, body_count_);
+    run(p.sum_bodies, body_count_);
     run(p.place_rows, 1);
     if (!p.has_rows) return;
     model.bind_colliders(p.make_rows);

@@ -35,7 +35,7 @@ private:
     struct Programs {
         Programs(const Model& model, bool has_rows);
         std::vector<const gl::Program*> all() const;
-        gl::Program begin_step, begin_try, predict, count_rows, begin_bodies, place_rows, make_rows,
+        gl::Program begin_step, begin_try, predict, count_rows, sum_bodies, place_rows, make_rows,
             find_targets, find_enough, sum_motions, follow_rotation;
         bool has_rows;
     };

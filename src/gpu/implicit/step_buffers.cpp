@@ -58,7 +58,7 @@ StepBuffers::StepBuffers(const Model& model, const RowCapacity& capacity, std::u
     const std::size_t most_rows = capacity.rows,
                       most_chunks = most_rows / contact_tuning::kRowsOfChunk + capacity.pairs;
     rows = {most_rows, rgba32ui};
-    entry_starts_ = {most_rows > 0 ? nodes + 1 : 0, r32ui};
+    entry_starts_ = {nodes + 1, r32ui};  // without rows, too: who gathers them finds none
     row_entries_ = {4 * most_rows, r32ui};
     couplings_ = {2 * capacity.pairs, r32ui};
     pairs_ = {capacity.pairs, rgba32ui};

@@ -75,9 +75,6 @@ public:
         poison.resize(model_.node_count());
         state_.to.positions.upload(poison);
         state_.to.velocities.upload(poison);
-        const float nothing = std::numeric_limits<float>::quiet_NaN();
-        state_.plane_notes.upload(std::vector<PlaneMemory>(
-            state_.plane_notes.size(), {glm::vec4(nothing), nothing, nothing, nothing, nothing}));
     }
 
     /// @return the greatest error over its bound
@@ -212,6 +209,8 @@ private:
         std::vector<float> times;
         for (const glm::vec4& velocity : model_.velocities) times.push_back(velocity.w);
         const gl::TexelTable<float> damping_times(times, gl::TexelFormat::r32f);
+        // Where there is no contact, as the beginning of a part leaves it.
+        state_.plane_notes.upload(std::vector<PlaneMemory>(state_.plane_notes.size()));
         system_.elastic.linearise(buffers_, state_.from, damping_times.texels(), state_.clock);
         system_.loads().upload(loads);
         system_.displacements().upload(std::vector<glm::vec4>(loads.size(), glm::vec4(0.0f)));
