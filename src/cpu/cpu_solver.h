@@ -46,6 +46,8 @@ protected:
     /// Forces and integration, collisions with colliders included.
     virtual void advance_nodes(const Step& step) = 0;
 
+    /// Whether nodes are changed after each step, where faces collide.
+    bool has_response() const { return plan_.has_response(); }
     /// Made when they are first needed.
     CollisionStages<Real>& collision_stages();
     std::span<const float> load_factors(const Step& step) const {

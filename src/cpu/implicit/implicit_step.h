@@ -61,6 +61,8 @@ public:
     Real run(const StepInput<Real>& wanted, Real shortest, Nodes<Real>& previous, Nodes<Real>& current,
              StageTimer* timer);
 
+    /// A response to collisions has changed nodes since the last step: energies are found anew.
+    void change() { energy_.change(); }
     /// Goes on from where bodies were put between steps, if nothing is in between but they themselves.
     /// @param nodes where they were put @return whether nothing was; else they have to go back
     bool follow(const Nodes<Real>& from, Nodes<Real>& nodes);

@@ -71,6 +71,7 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
     const Real shortest = size / static_cast<Real>(tuning::kMostParts);
     StepInput<Real> input{size, divides_steps_ ? size : Real(0), load_forces_, this->acting_pulls(),
                           rest_watch_ ? &*rest_watch_ : nullptr};
+    if (this->has_response()) step_.change();
     if (std::exchange(goes_on_, false)) step_.go_on(current_, previous_.velocities, size);
     to_ = current_;
     if (rest_watch_) rest_watch_->hold(to_);
