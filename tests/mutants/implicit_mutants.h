@@ -323,8 +323,6 @@ inline constexpr Mutant kStepRowMutants[] = {
      "if (is_near || !is_done) break;", "if (is_near) break;"},
     {"first_sides_do_not_move", "sim/implicit/rigid_newton.comp",
      "displaced(vectors[at(kStep, rows[r].object)], arm_at(r, 0u))", "vec3(0.0)"},
-    {"bodies_have_no_inertia_along_it", "sim/implicit/rigid_newton.comp",
-     "sums.y += dot_of(step, resistance(body(k), step));", ""},
     {"what_pulled_bodies_stays", "sim/implicit/rigid_newton.comp", "-part, resistance(", "0.0, resistance("},
     {"rotations_are_not_coupled", "sim/implicit/rigid_newton.comp", "d * by_second + pair_matrix(p, 4u) * w",
      "pair_matrix(p, 4u) * w"},
