@@ -20,8 +20,8 @@ struct StepClock {       // 80 bytes
     uint  row_count;
     uint  dropped_rows;  // for which there was no place
     uint  begun;         // parts of this step of which a try has begun
-    uint  unused_0;
-    uint  unused_1;
+    uint  guards;        // how often the guard has run in this part; above 0 the try goes on with it alone
+    uint  is_full;       // 1: a buffer was full; nothing goes on until the host has given more
 };
 // What a body passes on from part to part, and what its part begins with.
 struct BodyPace {        // 80 bytes

@@ -22,6 +22,7 @@ using glm::vec4;
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/handle.glsl"
 #include "layouts/load.glsl"
+#include "layouts/near_pair.glsl"
 #include "layouts/object_pair.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
@@ -67,18 +68,22 @@ static_assert(sizeof(HandleNode) == 32);
 static_assert(sizeof(LeafSearch) == 32);
 static_assert(sizeof(LoadedNode) == 16);
 static_assert(sizeof(NearObject) == 16);
+static_assert(sizeof(NearPair) == 80);
 static_assert(sizeof(NeoHookeanStep) == 64);
 static_assert(sizeof(NodeBlock) == 32);
 static_assert(sizeof(NodeLoad) == 32);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
+static_assert(sizeof(PairCounts) == 32);
 static_assert(sizeof(PairRow) == 16);
+static_assert(sizeof(PairSlot) == 16);
 static_assert(sizeof(Proximity) == 48);
 static_assert(sizeof(PlaneMemory) == 32);
 static_assert(sizeof(ProximityCounts) == 16);
 static_assert(sizeof(ResidualSums) == 32);
 static_assert(sizeof(RestMoment) == 48);
 static_assert(sizeof(RestShape) == 48);
+static_assert(sizeof(RowMemory) == 32);
 static_assert(sizeof(ShapePlace) == 96);
 static_assert(sizeof(ShapeSums) == 80);
 static_assert(sizeof(SkinPoint) == 32);
@@ -130,18 +135,22 @@ using layouts::HandleNode;
 using layouts::LeafSearch;
 using layouts::LoadedNode;
 using layouts::NearObject;
+using layouts::NearPair;
 using layouts::NeoHookeanStep;
 using layouts::NodeBlock;
 using layouts::NodeLoad;
 using layouts::NodeSums;
 using layouts::ObjectPair;
+using layouts::PairCounts;
 using layouts::PairRow;
+using layouts::PairSlot;
 using layouts::PlaneMemory;
 using layouts::Proximity;
 using layouts::ProximityCounts;
 using layouts::ResidualSums;
 using layouts::RestMoment;
 using layouts::RestShape;
+using layouts::RowMemory;
 using layouts::ShapePlace;
 using layouts::ShapeSums;
 using layouts::SkinPoint;

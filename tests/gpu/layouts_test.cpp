@@ -138,7 +138,7 @@ TEST_F(LayoutsTest, StepState) {
            FIELD(StepClock, has_past),  FIELD(StepClock, divides),      FIELD(StepClock, parts),
            FIELD(StepClock, tries),     FIELD(StepClock, made),         FIELD(StepClock, is_guarded),
            FIELD(StepClock, row_count), FIELD(StepClock, dropped_rows), FIELD(StepClock, begun),
-           FIELD(StepClock, unused_0),  FIELD(StepClock, unused_1)});
+           FIELD(StepClock, guards),    FIELD(StepClock, is_full)});
     check("step_state.glsl", "BodyPace", sizeof(BodyPace),
           {FIELD(BodyPace, pace), FIELD(BodyPace, is_struck), FIELD(BodyPace, held_count),
            FIELD(BodyPace, is_held), FIELD(BodyPace, past), FIELD(BodyPace, damping),
@@ -156,6 +156,24 @@ TEST_F(LayoutsTest, StepState) {
     check("step_state.glsl", "BodyRows", sizeof(BodyRows),
           {FIELD(BodyRows, count), FIELD(BodyRows, unused), FIELD(BodyRows, nearest),
            FIELD(BodyRows, deepest)});
+}
+
+TEST_F(LayoutsTest, NearPairs) {
+    check("near_pair.glsl", "NearPair", sizeof(NearPair),
+          {FIELD(NearPair, node_0), FIELD(NearPair, node_1), FIELD(NearPair, node_2), FIELD(NearPair, node_3),
+           FIELD(NearPair, weights), FIELD(NearPair, normal), FIELD(NearPair, first), FIELD(NearPair, second),
+           FIELD(NearPair, is_edges), FIELD(NearPair, slot), FIELD(NearPair, object), FIELD(NearPair, other),
+           FIELD(NearPair, reach), FIELD(NearPair, rounding)});
+    check("near_pair.glsl", "PairSlot", sizeof(PairSlot),
+          {FIELD(PairSlot, object), FIELD(PairSlot, other), FIELD(PairSlot, first_pair),
+           FIELD(PairSlot, pair_end)});
+    check("near_pair.glsl", "PairCounts", sizeof(PairCounts),
+          {FIELD(PairCounts, slots), FIELD(PairCounts, searches), FIELD(PairCounts, leaf_pairs),
+           FIELD(PairCounts, pairs), FIELD(PairCounts, fastest), FIELD(PairCounts, is_full),
+           FIELD(PairCounts, unused_0), FIELD(PairCounts, unused_1)});
+    check("near_pair.glsl", "RowMemory", sizeof(RowMemory),
+          {FIELD(RowMemory, hold), FIELD(RowMemory, reach), FIELD(RowMemory, first), FIELD(RowMemory, second),
+           FIELD(RowMemory, is_edges)});
 }
 
 TEST_F(LayoutsTest, Draw) {
