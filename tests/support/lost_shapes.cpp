@@ -58,7 +58,7 @@ void match_on_gpu(const Model& model, std::vector<cpu::Nodes<float>>& runs) {
     gpu::ShapeMatcher matcher(model);
     for (cpu::Nodes<float>& run : runs) {
         const gpu::NodeBuffers nodes(run.positions, run.velocities);
-        matcher.run(nodes);
+        matcher.run(nodes, kElapsed);
         gl::barrier(gl::Barrier::buffer_update);
         nodes.positions.download(run.positions);
         nodes.velocities.download(run.velocities);
@@ -73,8 +73,9 @@ double worst_matching_error(double scale) {
     std::vector<cpu::Nodes<double>> expected;
     for (const cpu::Nodes<float>& run : runs) {
         cpu::ShapeMatcher<double> matcher(std::make_shared<const Model>(model));
-        matcher.run(expected.emplace_back(cpu::Nodes<double>{
-            {run.positions.begin(), run.positions.end()}, {run.velocities.begin(), run.velocities.end()}}));
+        matcher.run(expected.emplace_back(cpu::Nodes<double>{{run.positions.begin(), run.positions.end()},
+                                                             {run.velocities.begin(), run.velocities.end()}}),
+                    kElapsed);
     }
     match_on_gpu(model, runs);
     double worst = 0.0;

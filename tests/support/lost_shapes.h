@@ -13,6 +13,8 @@ Model make_bodies_to_lose(double scale = 1.0);
 /// the bar is rolled up to a ring, without a tet inside out. The cube is mirrored: all of its tets are.
 cpu::Nodes<float> lose_shapes(const Model& model, bool bar_is_lost, float scale = 1.0f);
 
+constexpr double kElapsed = 1.0 / 60.0;  ///< from run to run [s]
+
 /// A run of the matcher on the GPU for each of `runs`, one after the other.
 void match_on_gpu(const Model& model, std::vector<cpu::Nodes<float>>& runs);
 

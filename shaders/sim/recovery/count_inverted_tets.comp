@@ -1,5 +1,5 @@
 // How many tets of each object are inside out, or have no volume left. Where there are so many that an object may have lost its
-// shape, the dispatches that match shapes get their work groups; else they stay empty.
+// shape, the dispatches over nodes that match shapes get their work groups; else they stay empty.
 // CPU twin: gelatin::cpu::ShapeMatcher. Parity: tests/gpu/recovery/match_shapes_test.cpp.
 #define WRITES_INVERTED
 #include "include/global_index.glsl"
@@ -10,7 +10,6 @@ layout(local_size_x = 64) in;
 uniform usamplerBuffer node_objects;
 uniform uint tet_count;
 uniform uint chunk_groups;   // of match_shapes.comp: a chunk each
-uniform uint object_groups;  // of match_shapes.comp with OBJECTS
 uniform uint node_groups;    // of place_shapes.comp
 
 Dispatch make_dispatch(uint groups) {
@@ -25,6 +24,5 @@ void main() {
     // The one tet with which they become too many.
     if (atomicAdd(inverted[object], 1u) != most_inverted(object)) return;
     match_dispatches[0] = make_dispatch(chunk_groups);
-    match_dispatches[1] = make_dispatch(object_groups);
-    match_dispatches[2] = make_dispatch(node_groups);
+    match_dispatches[1] = make_dispatch(node_groups);
 }

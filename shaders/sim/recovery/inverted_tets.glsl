@@ -8,7 +8,7 @@ layout(std430) buffer Inverted {
 #else
 layout(std430) readonly buffer Inverted {
 #endif
-    Dispatch match_dispatches[3];  // of match_shapes.comp, of it with OBJECTS, of place_shapes.comp
+    Dispatch match_dispatches[2];  // of match_shapes.comp without OBJECTS, of place_shapes.comp
     uint inverted[];               // tets, by object
 };
 

@@ -29,12 +29,17 @@ bool may_be_lost(uint object) { return inverted[object] > most_inverted(object);
 #ifdef OBJECTS
 #include "sim/recovery/nearest_rotation.glsl"
 
+layout(std430) buffer LostFor { float lost_for[]; };  // how long objects have seemed to be lost [s]
+uniform float elapsed;                                // since the last call [s]
+
 float trace(mat3 m) { return m[0][0] + m[1][1] + m[2][2]; }
 
 void main() {
     uint object = global_index();
     if (object >= element_count) return;
     places[object].center.w = 0.0;
+    float before = lost_for[object];
+    lost_for[object] = 0.0;
     if (!may_be_lost(object)) return;
     uint first = texelFetch(chunk_starts, int(object)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
     ShapeSums sums = kNothing;
@@ -49,6 +54,8 @@ void main() {
     mat3 affine = moment * inverse_, squares = transpose(affine) * affine;
     float sum = trace(squares), products = 0.5 * (sum * sum - trace(squares * squares));
     if (products > kThinnest * sum * sum && trace(affine * transpose(moment)) > kLeastExplained * square) return;
+    lost_for[object] = before + elapsed;
+    if (!(before + elapsed > kPatience)) return;
 
     // Moments of inertia in units of the object's own: determinants have three of them.
     float unit = trace(inverse_);

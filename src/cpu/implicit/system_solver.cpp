@@ -75,6 +75,8 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
     if (std::exchange(goes_on_, false)) step_.go_on(current_, previous_.velocities, size);
     to_ = current_;
     if (rest_watch_) rest_watch_->hold(to_);
+    from_ = to_;
+    if (!shape_matcher_.run(to_, step.size).empty() && !step_.follow(from_, to_)) to_ = from_;
     Real longest =
         size;  // twice the last part, so that those that are divided do not begin with all that is left
     for (Real left = size; left > Real(0.5) * shortest; left -= input.step) {
@@ -85,7 +87,6 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
                 Vec4<Real>((goals_[n] - Vec3<Real>(to_.positions[n])) / left, to_.velocities[n].w);
         }
         from_ = to_;
-        if (!shape_matcher_.run(to_).empty() && step_.follow(from_, to_)) from_ = to_;
         this->sum_loads(step, from_);
         input.step = std::min(left, longest);
         input.step = step_.run(input, shortest, from_, to_, timer);
@@ -154,6 +155,7 @@ bool SystemSolver<Real>::restore(std::string_view memory) {
 template <class Real>
 void SystemSolver<Real>::forget() {
     step_.restart();
+    shape_matcher_.forget();
     if (rest_watch_) rest_watch_->restart();
     held_at_.clear();
     held_changes_.clear();
@@ -177,6 +179,7 @@ void SystemSolver<Real>::archive(Archive& archive) {
     archive.value(written);
     if (written != kind) return archive.fail();
     step_.archive(archive);
+    shape_matcher_.archive(archive);
     if (rest_watch_) rest_watch_->archive(archive);
     archive.list(held_at_);
     archive.list(forces_on_held_);

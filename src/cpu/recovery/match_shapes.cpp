@@ -25,17 +25,25 @@ ShapeMatcher<Real>::ShapeMatcher(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       shapes_(make_match_shapes(*model_)),
       object_of_(objects_of_nodes(*model_)),
-      inverted_(model_->objects.size()) {}
+      inverted_(model_->objects.size()),
+      lost_for_(model_->body_count()) {
+    forget();
+}
 
 template <class Real>
-std::vector<std::uint32_t> ShapeMatcher<Real>::run(Nodes<Real>& nodes) {
+std::vector<std::uint32_t> ShapeMatcher<Real>::run(Nodes<Real>& nodes, double elapsed) {
     count_inverted_tets(nodes.positions);
     std::vector<std::uint32_t> lost;
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
-        if (static_cast<float>(inverted_[o]) > shapes_.objects[o].inverse_y.w) lost.push_back(o);
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        if (static_cast<float>(inverted_[o]) > shapes_.objects[o].inverse_y.w)
+            lost.push_back(o);
+        else
+            lost_for_[o] = 0.0f;
+    }
     std::vector<std::uint8_t> is_matched(lost.size());
-    tbb::parallel_for(std::size_t(0), lost.size(),
-                      [&](std::size_t k) { is_matched[k] = match(lost[k], nodes) ? 1 : 0; });
+    tbb::parallel_for(std::size_t(0), lost.size(), [&](std::size_t k) {
+        is_matched[k] = match(lost[k], nodes, static_cast<float>(elapsed)) ? 1 : 0;
+    });
     std::size_t k = 0;
     std::erase_if(lost, [&](std::uint32_t) { return is_matched[k++] == 0; });
     return lost;
@@ -62,7 +70,7 @@ void ShapeMatcher<Real>::count_inverted_tets(const std::vector<Vec4<Real>>& posi
 }
 
 template <class Real>
-bool ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
+bool ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes, float elapsed) {
     const Range& range = model_->objects[object].nodes;
     const auto is_held = [](const Vec4<Real>& position) { return position.w == Real(0); };
     const auto first = nodes.positions.begin() + range.first;
@@ -89,8 +97,10 @@ bool ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
     square -= mass * glm::dot(center, center);
     const glm::dmat3 affine = moment * inverse, squares = glm::transpose(affine) * affine;
     const double sum = trace(squares), products = 0.5 * (sum * sum - trace(squares * squares));
-    if (products > kThinnest * sum * sum && trace(affine * glm::transpose(moment)) > kLeastExplained * square)
-        return false;
+    const bool is_lost = !(products > kThinnest * sum * sum &&
+                           trace(affine * glm::transpose(moment)) > kLeastExplained * square);
+    lost_for_[object] = is_lost ? lost_for_[object] + elapsed : 0.0f;
+    if (!(lost_for_[object] > kPatience)) return false;
 
     const glm::dmat3 rotation = nearest_rotation(moment), square_at_rest = glm::inverse(inverse);
     const glm::dmat3 inertia = trace(square_at_rest) * glm::dmat3(1.0) - square_at_rest;

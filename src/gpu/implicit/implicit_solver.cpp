@@ -28,7 +28,7 @@ std::uint32_t most_small_chunks() {
 }
 
 // Sizes say for which model it is: the same solver's on another device has them, too.
-void pass(PartEnd::Memory& memory, Archive& archive) {
+void pass(PartEnd::Memory& memory, std::vector<float>& lost_for, Archive& archive) {
     constexpr std::size_t kDevice = 0xDE71CE;  // no size of a scalar, with which the host's begins
     const std::array<std::size_t, 4> kind{kDevice, memory.accelerations.size(), memory.paces.size(),
                                           memory.planes.size()};
@@ -41,6 +41,7 @@ void pass(PartEnd::Memory& memory, Archive& archive) {
     archive.array(memory.planes);
     archive.array(memory.energies);
     archive.array(memory.meetings);
+    archive.array(lost_for);
 }
 
 void copy_nodes(const NodeBuffers& from, NodeBuffers& to) {
@@ -70,6 +71,7 @@ void ImplicitSolver::write_state(const State& state) {
     goes_on_ = false;
     if (restore(state.memory)) return;
     end_.forget();
+    shape_matcher_.forget();
     goes_on_ = has_earlier_;
 }
 
@@ -78,7 +80,8 @@ std::string ImplicitSolver::memory() {
     std::string bytes;
     Archive archive = Archive::that_writes(bytes);
     PartEnd::Memory memory = end_.memory();
-    pass(memory, archive);
+    std::vector<float> lost_for = shape_matcher_.lost_for();
+    pass(memory, lost_for, archive);
     return bytes;
 }
 
@@ -86,9 +89,12 @@ std::string ImplicitSolver::memory() {
 bool ImplicitSolver::restore(std::string_view bytes) {
     Archive archive = Archive::that_reads(bytes);
     PartEnd::Memory memory = end_.empty_memory();
-    pass(memory, archive);
-    if (archive.is_complete()) end_.set_memory(memory);
-    return archive.is_complete();
+    std::vector<float> lost_for(model_->objects.size());
+    pass(memory, lost_for, archive);
+    if (!archive.is_complete()) return false;
+    end_.set_memory(memory);
+    shape_matcher_.set_lost_for(lost_for);
+    return true;
 }
 
 void ImplicitSolver::advance_nodes(const Step& step) {
@@ -99,7 +105,7 @@ void ImplicitSolver::advance_nodes(const Step& step) {
     loads_ = loads_of(step);
     std::swap(current_, previous_);
     copy_nodes(previous_, state_.from);
-    shape_matcher_.run(state_.from);
+    shape_matcher_.run(state_.from, step.size);
     start_.begin_step(step.size, divides_steps_);
     end_.begin_step(buffers_);
     has_earlier_ = true;

@@ -8,7 +8,7 @@
 namespace gelatin::gpu {
 namespace {
 
-constexpr std::size_t kDispatches = 3;
+constexpr std::size_t kDispatches = 2;
 
 std::vector<glm::vec4> volumes_of(const Model& model) {
     std::vector<glm::vec4> volumes;
@@ -35,7 +35,9 @@ ShapeMatcher::ShapeMatcher(const Model& model)
       tet_rests_(volumes_of(model), gl::TexelFormat::rgba32f),
       node_objects_(objects_of_nodes(model), gl::TexelFormat::r32ui),
       inverted_(kDispatches * sizeof(Dispatch) / sizeof(std::uint32_t) + model.objects.size()),
-      places_(model.objects.size()) {
+      places_(model.objects.size()),
+      lost_for_(model.objects.size()) {
+    forget();
     const MatchShapes shapes = make_match_shapes(model);
     rest_offsets_ = {shapes.offsets, gl::TexelFormat::rgba32f};
     rest_moments_ = gl::Buffer<RestMoment>(shapes.objects);
@@ -58,12 +60,24 @@ ShapeMatcher::ShapeMatcher(const Model& model)
         program->bind("Sums", sums_);
         program->bind("Places", places_);
     }
+    match_program_.bind("LostFor", lost_for_);
     place_program_.bind("rest_offsets", rest_offsets_);
     place_program_.bind("node_objects", node_objects_);
     place_program_.bind("Places", places_);
 }
 
-void ShapeMatcher::run(const NodeBuffers& nodes) {
+void ShapeMatcher::forget() {
+    set_lost_for(std::vector<float>(lost_for_.size(), static_cast<float>(kPatience)));
+}
+
+std::vector<float> ShapeMatcher::lost_for() const {
+    std::vector<float> times(lost_for_.size());
+    gl::barrier(gl::Barrier::buffer_update);
+    lost_for_.download(times);
+    return times;
+}
+
+void ShapeMatcher::run(const NodeBuffers& nodes, double elapsed) {
     inverted_.fill(0);
     for (const gl::Program* program : {&count_program_, &sum_program_, &match_program_})
         program->bind("positions", nodes.position_texels);
@@ -73,7 +87,6 @@ void ShapeMatcher::run(const NodeBuffers& nodes) {
     place_program_.bind("Velocities", nodes.velocities);
     count_program_.set("tet_count", tet_count_);
     count_program_.set("chunk_groups", static_cast<std::uint32_t>(chunks_.size()));
-    count_program_.set("object_groups", groups_of(object_count_));
     count_program_.set("node_groups", groups_of(node_count_));
     count_program_.dispatch(tet_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);
@@ -83,11 +96,12 @@ void ShapeMatcher::run(const NodeBuffers& nodes) {
     gl::barrier(gl::Barrier::storage);
 
     match_program_.set("element_count", object_count_);
-    match_program_.dispatch_indirect(inverted_.id(), sizeof(Dispatch));
+    match_program_.set("elapsed", static_cast<float>(elapsed));
+    match_program_.dispatch(object_count_);
     gl::barrier(gl::Barrier::storage);
 
     place_program_.set("node_count", node_count_);
-    place_program_.dispatch_indirect(inverted_.id(), 2 * sizeof(Dispatch));
+    place_program_.dispatch_indirect(inverted_.id(), sizeof(Dispatch));
     gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <glm/vec4.hpp>
+#include <span>
+#include <vector>
 
 #include "gl/program.h"
 #include "gpu/node_buffers.h"
@@ -14,9 +16,16 @@ class ShapeMatcher {
 public:
     explicit ShapeMatcher(const Model& model);
 
+    /// @param elapsed since the last call [s]
     /// @pre barrier(buffer_update) since the last dispatch
     /// Ends with the barrier that whoever gathers the nodes as textures or storage needs.
-    void run(const NodeBuffers& nodes);
+    void run(const NodeBuffers& nodes, double elapsed);
+
+    /// How long each object has seemed to be lost [s]; for checkpoints. Block until the device has ended.
+    std::vector<float> lost_for() const;
+    void set_lost_for(std::span<const float> times) { lost_for_.upload(times); }
+    /// Nodes were set from outside.
+    void forget();
 
 private:
     gl::Program count_program_, sum_program_, match_program_, place_program_;
@@ -31,6 +40,7 @@ private:
     gl::Buffer<std::uint32_t> inverted_;  // see shaders/sim/recovery/inverted_tets.glsl
     gl::Buffer<ShapeSums> sums_;          // by chunk
     gl::Buffer<ShapePlace> places_;       // by object
+    gl::Buffer<float> lost_for_;          // by object [s]
 };
 
 }  // namespace gelatin::gpu

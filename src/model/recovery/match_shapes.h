@@ -18,6 +18,10 @@ using thresholds::kLeastExplained;
 /// Or where it is less than this thin. Then nothing but a line or a point is left: parts of what unfolds from
 /// it would stay inverted.
 using thresholds::kThinnest;
+/// For longer than this in a row [s]: bodies that are crushed come back by themselves. What is so when nodes
+/// are set from outside does not.
+using thresholds::kPatience;
+
 /// The objects' shapes at rest, to be matched with where their nodes are (docs/lost-shapes.md).
 struct MatchShapes {
     std::vector<glm::vec4> offsets;  ///< from the object's centre of mass [m], mass [kg], shape [nodes]

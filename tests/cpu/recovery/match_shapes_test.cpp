@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "cpu/implicit/system_solver.h"
 #include "support/lost_shapes.h"
 #include "support/test_models.h"
 
@@ -46,7 +47,7 @@ cpu::Nodes<double> in_double(const cpu::Nodes<float>& nodes) {
 }
 
 cpu::Nodes<double> matched(const Model& model, cpu::Nodes<double> nodes) {
-    cpu::ShapeMatcher<double>(std::make_shared<const Model>(model)).run(nodes);
+    cpu::ShapeMatcher<double>(std::make_shared<const Model>(model)).run(nodes, 1.0 / 60.0);
     return nodes;
 }
 
@@ -117,6 +118,52 @@ TEST(ShapeMatcher, GivesLinesTheirShapeBack) {
         for (std::uint32_t m = bar.first; m < n; ++m)
             EXPECT_NEAR(glm::distance(glm::dvec3(found.positions[n]), glm::dvec3(found.positions[m])),
                         glm::distance(glm::dvec3(model.positions[n]), glm::dvec3(model.positions[m])), 1e-6);
+}
+
+// What is crushed may seem to be lost for a while.
+TEST(ShapeMatcher, WaitsUnlessNodesWereSetFromOutside) {
+    const auto model = std::make_shared<const Model>(test::make_bodies_to_lose());
+    const cpu::Nodes<double> whole = in_double({model->positions, model->velocities}),
+                             lost = in_double(test::lose_shapes(*model, true));
+    cpu::ShapeMatcher<double> matcher(model);
+    const auto matches = [&](cpu::Nodes<double> nodes) { return !matcher.run(nodes, 0.1).empty(); };
+    EXPECT_TRUE(matches(lost));
+    EXPECT_FALSE(matches(whole));
+    for (int k = 0; k < 5; ++k) EXPECT_FALSE(matches(lost)) << k;  // half a second
+    EXPECT_TRUE(matches(lost));
+    EXPECT_FALSE(matches(whole));
+    EXPECT_FALSE(matches(lost));
+    matcher.forget();
+    EXPECT_TRUE(matches(lost));
+}
+
+// A soft block that comes down so hard that it seems to be lost is left to its elements.
+TEST(ShapeMatcher, LeavesHardImpacts) {
+    Body body = test::make_body(test::make_block({5, 5, 5}, {0.5, 0.5, 0.5}, 0.2));
+    body.material.youngs_modulus = 1e4;
+    body.velocity = {2.0, -8.0, 0.0};
+    ColliderDescription floor;
+    floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.1};
+    const auto model = std::make_shared<const Model>(pack_bodies({body}, {floor}, {0.0, -9.81, 0.0}));
+    cpu::SystemSolver<float> solver(model, {}, {.iterations = 20});
+    int lost = 0;
+    for (int s = 0; s < 24; ++s) {
+        solver.advance({1.0 / 60.0});
+        cpu::Nodes<float> nodes = solver.nodes();
+        lost += cpu::ShapeMatcher<float>(model).run(nodes, 1.0 / 60.0).empty() ? 0 : 1;
+    }
+    EXPECT_GT(lost, 3);
+    glm::dvec3 momentum(0.0);
+    double motion = 0.0, mass = 0.0;
+    for (std::uint32_t n = 0; n < model->node_count(); ++n) {
+        const glm::dvec3 v(solver.nodes().velocities[n]);
+        const auto m = static_cast<double>(model->masses[n]);
+        mass += m;
+        momentum += m * v;
+        motion += 0.5 * m * glm::dot(v, v);
+    }
+    // It vibrates: with its shape put back it would not.
+    EXPECT_GT(motion - 0.5 * glm::dot(momentum, momentum) / mass, 0.02 * motion);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/support/solver_scenarios.h"
+#include "model/recovery/match_shapes.h"
 #include "support/gl_fixture.h"
 #include "support/lost_shapes.h"
 
@@ -37,6 +38,19 @@ TEST_F(ShapeMatcherOnGpuTest, LeavesOthersAsTheyAre) {
             EXPECT_EQ(runs[0].velocities[n], before.velocities[n]);
         }
     }
+}
+
+TEST_F(ShapeMatcherOnGpuTest, WaitsUnlessNodesWereSetFromOutside) {
+    const Model model = test::make_bodies_to_lose();
+    const cpu::Nodes<float> whole{model.positions, model.velocities}, lost = test::lose_shapes(model, true);
+    std::vector<cpu::Nodes<float>> runs = {lost, whole};
+    const auto steps = static_cast<std::size_t>(kPatience / test::kElapsed);
+    runs.insert(runs.end(), steps + 2, lost);
+    test::match_on_gpu(model, runs);
+    const auto is_matched = [&](std::size_t run) { return runs[run].positions != lost.positions; };
+    EXPECT_TRUE(is_matched(0));
+    for (std::size_t k = 0; k + 1 < steps; ++k) EXPECT_FALSE(is_matched(2 + k)) << k;
+    EXPECT_TRUE(is_matched(steps + 3));
 }
 
 }  // namespace
