@@ -28,11 +28,6 @@ namespace packing {
 #include "layouts/packing.glsl"
 }  // namespace packing
 
-/// The lists that pairs of surfaces are found with.
-namespace pair_stages {
-#include "layouts/pair_stages.glsl"
-}  // namespace pair_stages
-
 /// What decides in the geometric predicates.
 namespace predicates {
 #include "layouts/predicates.glsl"

@@ -1,8 +1,7 @@
 // Boxes of the nodes of trees, one level in each dispatch, leaves first. LEAVES: nodes over faces, whose boxes are computed
 // too. CONTINUOUS: boxes over the whole step; MARGIN: larger than the faces. OBJECTS: nodes over objects. Neither: inner nodes.
-// The box of a face tree's root is its object's bounding box. PATHS: boxes over the paths of a part of an implicit step.
-// CPU twins: gelatin::cpu::Collision, gelatin::cpu::FindPairs. Parity: tests/gpu/collision/collision_test.cpp,
-// tests/gpu/implicit/find_pairs_test.cpp.
+// The box of a face tree's root is its object's bounding box. CPU twin: gelatin::cpu::Collision. Parity:
+// tests/gpu/collision/collision_test.cpp.
 #include "layouts/packing.glsl"
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"
@@ -12,11 +11,7 @@ layout(local_size_x = 64) in;
 
 uniform usamplerBuffer tree_nodes;  // TreeNode
 uniform usamplerBuffer object_order;
-#ifdef PATHS
-#include "sim/implicit/clock.glsl"
-#else
 layout(std430) buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
-#endif
 layout(std430) buffer TreeBoxes { Box tree_boxes[]; };
 layout(std430) readonly buffer LevelNodes { uint level_nodes[]; };
 uniform uint first_node;  // of this level in level_nodes
@@ -24,16 +19,7 @@ uniform uint node_count;
 
 Box join(Box a, Box b) { return Box(min(a.min, b.min), max(a.max, b.max)); }
 
-#if defined(LEAVES) && defined(PATHS)
-#include "sim/implicit/path_boxes.glsl"
-uniform usamplerBuffer faces;  // Face
-
-Box box_of_face(uint f) {
-    uvec4 face = texelFetch(faces, int(f));
-    Bounds box = path_bounds(face.xyz, frame_of(face.w));
-    return Box(vec4(box.min, 0.0), vec4(box.max, 0.0));
-}
-#elif defined(LEAVES)
+#ifdef LEAVES
 uniform samplerBuffer positions;           // xyz [m]
 uniform samplerBuffer previous_positions;  // at the start of the step, xyz [m]
 layout(std430) readonly buffer Faces { Face faces[]; };
@@ -68,18 +54,13 @@ Box box_of_face(uint f) {
 void main() {
     uint index = global_index();
     if (index >= node_count) return;
-#ifdef PATHS
-    if (!goes_on()) return;
-#endif
     uint n = level_nodes[first_node + index];
     uvec4 node = texelFetch(tree_nodes, int(n));  // skip, first face, number of faces, object
     Box box = Box(vec4(3.4e38), vec4(-3.4e38));
 #ifdef LEAVES
     for (uint f = node.y; f < node.y + node.z; ++f) {
         Box face_box = box_of_face(f);
-#ifndef PATHS
         face_boxes[f] = face_box;
-#endif
         box = join(box, face_box);
     }
 #elif defined(OBJECTS)
@@ -95,9 +76,7 @@ void main() {
     }
 #endif
     tree_boxes[n] = box;
-#ifndef PATHS
     if (node.w == kNone) return;
     bounding_boxes[node.w].min = box.min;
     bounding_boxes[node.w].max = box.max;
-#endif
 }

@@ -34,9 +34,8 @@ void main() {
         count += all;
     }
     fastest = max_over_group(fastest);
-    if (lane < kPairDispatches) dispatches[lane] = Dispatch(0u, 1u, 1u, 0u);
-    barrier();
     if (lane != 0u) return;
+    for (uint k = 0u; k < kPairDispatches; ++k) dispatches[k] = Dispatch(0u, 1u, 1u, 0u);
     slot_starts[object_count] = count;
     bool is_full = count > slot_capacity;
     counts[0] = PairCounts(count, 0u, 0u, 0u, fastest, is_full ? 1u : 0u, 0u, 0u);

@@ -72,7 +72,7 @@ uvec3 nodes_of(Element element, uint second) {
     return texelFetch(faces, int(second)).xyz;
 }
 
-// A body does not meet itself where nodes are in common, and edges do once.
+// Of one body, sides have no node in common, and of two edges the first one has the pair.
 bool may_meet(LeafPair pair, Element element, uint second, uvec3 nodes) {
     if (pair.object != pair.other) return true;
     return !(element.is_edge && second <= element.number) && !any(equal(nodes, uvec3(element.nodes.x))) &&

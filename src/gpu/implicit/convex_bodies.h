@@ -11,8 +11,8 @@
 
 namespace gelatin::gpu {
 
-/// Bodies that are convex at the start, of which only what has lost distances may meet itself: their tets,
-/// and where that is. CPU twin: cpu::KeptDistances.
+/// Bodies that are convex at the start, which have self-contact only where they have lost distances: their
+/// tets, and where that is. CPU twin: cpu::KeptDistances.
 struct ConvexBodies {
     /// @param own whether bodies meet themselves: else there are none
     ConvexBodies(const Model& model, const ContactSurface& surface, bool own);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "gpu/collision/update_boxes.h"
-#include "model/shared_constants.h"
+#include "layouts_pair_stages_dev.h"
 
 namespace gelatin::gpu {
 namespace {
@@ -38,8 +38,8 @@ std::vector<std::uint32_t> leaf_starts_of(const BoxTree& trees) {
 
 FindPairs::Programs::Programs(bool finds_own)
     : find_paths(implicit_program("find_paths.comp")),
-      box_leaves(gl::Program::compute("sim/collision/update_boxes.comp", {"PATHS", "LEAVES"})),
-      box_nodes(gl::Program::compute("sim/collision/update_boxes.comp", {"PATHS"})),
+      box_leaves(implicit_program("box_paths.comp", {"LEAVES"})),
+      box_nodes(implicit_program("box_paths.comp")),
       count_slots(implicit_program("find_slots.comp")),
       place_slots(implicit_program("place_slots.comp")),
       list_slots(implicit_program("find_slots.comp", {"LIST"})),

@@ -63,7 +63,6 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kAtRest, static_cast<float>(cpu::kAtRest));
     EXPECT_EQ(gpu::kInIsland, static_cast<float>(cpu::kInIsland));
     EXPECT_EQ(gpu::kRoundings, static_cast<float>(cpu::kRoundings));
-    EXPECT_EQ(gpu::kKept, static_cast<float>(cpu::kKept));
 }
 
 class StepSystemOnGpuTest : public test::GlTest {};
