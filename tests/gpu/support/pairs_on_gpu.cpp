@@ -61,10 +61,23 @@ void PairsOnGpu::set_clock(std::uint32_t guards, bool goes_on) {
     state_.clock.upload(std::vector{clock});
 }
 
-FoundPairs PairsOnGpu::run(std::uint32_t guards) {
+FoundPairs PairsOnGpu::run_once(std::uint32_t guards) {
     set_clock(guards, true);
     find_.run(buffers_);
     return read();
+}
+
+FoundPairs PairsOnGpu::run(std::uint32_t guards) {
+    FoundPairs found = run_once(guards);
+    while (found.counts.is_full != 0) {
+        pairs_.grow({std::max<std::size_t>(pairs_.capacity.slots, found.counts.slots),
+                     std::max<std::size_t>(pairs_.capacity.searches, found.counts.searches),
+                     std::max<std::size_t>(pairs_.capacity.leaf_pairs, found.counts.leaf_pairs),
+                     std::max<std::size_t>(pairs_.capacity.pairs, found.counts.pairs)});
+        find_.grow();
+        found = run_once(guards);
+    }
+    return found;
 }
 
 FoundPairs PairsOnGpu::give_up() {

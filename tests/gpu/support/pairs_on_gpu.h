@@ -36,8 +36,10 @@ class PairsOnGpu {
 public:
     explicit PairsOnGpu(const PairCase& at);
 
-    /// @param guards how often the guard has run in the part
+    /// With more room where there is too little. @param guards how often the guard has run in the part
     FoundPairs run(std::uint32_t guards = 0);
+    /// With the room that there is.
+    FoundPairs run_once(std::uint32_t guards = 0);
     /// Gives less than the buffers have.
     void limit(const gpu::PairCapacity& capacity);
     gpu::PairCapacity capacity() const { return pairs_.capacity; }
