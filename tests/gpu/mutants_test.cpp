@@ -8,11 +8,13 @@
 
 #include "gpu/support/collision_scenarios.h"
 #include "gpu/support/implicit_scenarios.h"
+#include "gpu/support/pair_scenarios.h"
 #include "gpu/support/part_end_scenarios.h"
 #include "gpu/support/part_start_scenarios.h"
 #include "gpu/support/solver_scenarios.h"
 #include "mutants/collision_mutants.h"
 #include "mutants/implicit_mutants.h"
+#include "mutants/pair_mutants.h"
 #include "mutants/solver_mutants.h"
 
 namespace gelatin::test {
@@ -42,6 +44,8 @@ INSTANTIATE_TEST_SUITE_P(SmallIslandRows, MutantsLong,
 
 INSTANTIATE_TEST_SUITE_P(PartStarts, MutantsLong,
                          ::testing::ValuesIn(cases(kPartStartMutants, part_start_scenarios())), name_of_case);
+INSTANTIATE_TEST_SUITE_P(FindPairs, MutantsLong,
+                         ::testing::ValuesIn(cases(kFindPairsMutants, pair_scenarios())), name_of_case);
 INSTANTIATE_TEST_SUITE_P(PartEnds, MutantsLong,
                          ::testing::ValuesIn(cases(kPartEndMutants, part_end_scenarios())), name_of_case);
 

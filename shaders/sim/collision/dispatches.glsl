@@ -2,6 +2,7 @@
 #include "layouts/dispatch.glsl"
 #include "layouts/dispatch_slots.glsl"
 #include "layouts/packing.glsl"
+#include "sim/collision/bounds.glsl"
 
 #ifdef WRITES_DISPATCHES
 layout(std430) buffer Dispatches { Dispatch dispatches[]; };
@@ -45,7 +46,3 @@ uint take_slots(uint work, uint count, uint capacity, out uint left_over) {
     return first;
 }
 #endif
-
-bool meet(vec3 min_a, vec3 max_a, vec3 min_b, vec3 max_b) {
-    return all(lessThanEqual(min_a, max_b)) && all(lessThanEqual(min_b, max_a));
-}

@@ -14,18 +14,12 @@ uniform usamplerBuffer face_starts;  // of each face in surface_nodes and face_e
 uniform usamplerBuffer surface_nodes;
 uniform usamplerBuffer face_edges;   // FaceEdge
 
-struct Bounds {
-    vec3 min;
-    vec3 max;
-};
-
 Bounds tree_bounds(uint node) {
     return Bounds(texelFetch(tree_boxes, int(2u * node)).xyz, texelFetch(tree_boxes, int(2u * node + 1u)).xyz);
 }
 Bounds face_bounds(uint face) {
     return Bounds(texelFetch(face_boxes, int(2u * face)).xyz, texelFetch(face_boxes, int(2u * face + 1u)).xyz);
 }
-bool meet(Bounds a, Bounds b) { return meet(a.min, a.max, b.min, b.max); }
 
 vec3 position(uint node) { return texelFetch(positions, int(node)).xyz; }
 

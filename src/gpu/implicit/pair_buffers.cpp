@@ -12,18 +12,23 @@ PairCapacity PairCapacity::of(const Model& model) {
 }
 
 PairBuffers::PairBuffers(const Model& model, const ContactSurface& surface, const PairCapacity& wanted)
-    : capacity(wanted),
-      counts(std::vector<PairCounts>(1)),
+    : counts(std::vector<PairCounts>(1)),
       slot_starts(model.objects.size() + 1, gl::TexelFormat::r32ui),
-      slots(capacity.slots, gl::TexelFormat::rgba32ui),
-      pairs(capacity.pairs, gl::TexelFormat::rgba32ui),
       path_ends(model.positions.size(), gl::TexelFormat::rgba32f),
       slacks(model.objects.size(), gl::TexelFormat::r32f),
       motions(model.objects.size(), gl::TexelFormat::rgba32f),
       object_count_(static_cast<std::uint32_t>(model.objects.size())),
       body_count_(static_cast<std::uint32_t>(model.body_count())),
       thicknesses_(std::vector<float>(surface.thicknesses.begin(), surface.thicknesses.end()),
-                   gl::TexelFormat::r32f) {}
+                   gl::TexelFormat::r32f) {
+    grow(wanted);
+}
+
+void PairBuffers::grow(const PairCapacity& wanted) {
+    capacity = wanted;
+    slots = {capacity.slots, gl::TexelFormat::rgba32ui};
+    pairs = {capacity.pairs, gl::TexelFormat::rgba32ui};
+}
 
 void PairBuffers::bind(const gl::Program& program) const {
     const auto bind_one = [&](const char* name, const auto& buffer) {

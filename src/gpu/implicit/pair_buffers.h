@@ -26,6 +26,8 @@ class PairBuffers {
 public:
     PairBuffers(const Model& model, const ContactSurface& surface, const PairCapacity& capacity);
 
+    /// Makes room for more; paths stay. What was bound has to be bound again.
+    void grow(const PairCapacity& wanted);
     /// What the program's source names; but for what is bound to it by another name.
     void bind(const gl::Program& program) const;
 

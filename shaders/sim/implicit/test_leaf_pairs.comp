@@ -1,0 +1,203 @@
+// Which elements of two leaves, nodes of the first and faces of the second, and edges, may come nearer than their reach: a bit each, and
+// how many; with LIST the near pairs. Eight invocations two leaves, each with up to three of the first one's elements: bits of 12.
+// CPU twin: gelatin::cpu::FindPairs. Parity: tests/gpu/implicit/find_pairs_test.cpp.
+#include "include/global_index.glsl"
+#include "layouts/near_pair.glsl"
+#include "sim/collision/dispatches.glsl"
+#include "sim/collision/nearest_points.glsl"
+#include "sim/implicit/clock.glsl"
+#include "sim/implicit/list_starts.glsl"
+#include "sim/implicit/path_boxes.glsl"
+layout(local_size_x = 64) in;
+
+uniform usamplerBuffer pair_slots;   // PairSlot
+uniform usamplerBuffer searches;     // leaf, slot
+uniform usamplerBuffer leaf_pairs;   // search, leaf
+uniform usamplerBuffer tree_nodes;   // TreeNode
+uniform usamplerBuffer face_starts;  // of each face in surface_nodes and face_edges
+uniform usamplerBuffer surface_nodes;
+uniform usamplerBuffer face_edges;   // FaceEdge
+uniform usamplerBuffer faces;        // Face
+
+#ifdef LIST
+uniform usamplerBuffer hit_starts;  // by leaf pair
+uniform usamplerBuffer hit_sums;
+uniform usamplerBuffer hits;        // by invocation
+uniform uint pair_capacity;
+layout(std430) writeonly buffer NearPairs { NearPair near_pairs[]; };
+#else
+layout(std430) writeonly buffer Hits { uvec2 hits[]; };
+layout(std430) writeonly buffer Starts { uint starts[]; };  // counts
+#endif
+
+struct LeafPair {
+    uint slot, object, other;
+    uvec4 of;  // the first leaf: its first node, edge, the ends of both
+    uvec4 to;  // the second leaf: its first face, edge, the ends of both
+    bool has_edges;
+};
+
+LeafPair fetch_leaf_pair(uint p) {
+    uvec2 pair = texelFetch(leaf_pairs, int(p)).xy, search = texelFetch(searches, int(pair.x)).xy;
+    uvec2 slot = texelFetch(pair_slots, int(search.y)).xy;
+    uvec2 one = texelFetch(tree_nodes, int(search.x)).yz, two = texelFetch(tree_nodes, int(pair.y)).yz;
+    uvec4 of = uvec4(texelFetch(face_starts, int(one.x)).xy, texelFetch(face_starts, int(one.x + one.y)).xy);
+    uvec4 to = uvec4(two.x, texelFetch(face_starts, int(two.x)).y, two.x + two.y,
+                     texelFetch(face_starts, int(two.x + two.y)).y);
+    return LeafPair(search.y, slot.x, slot.y, of, to, slot.x == slot.y ? two.x >= one.x : slot.y > slot.x);
+}
+
+// A node or an edge, and what is tested against it.
+struct Element {
+    bool is_edge;
+    uint number;        // of the node, or of the edge
+    uvec2 nodes;
+    uint first, count;  // faces, or edges
+};
+
+Element fetch_element(LeafPair pair, uint e) {
+    uint nodes = pair.of.z - pair.of.x, edges = pair.of.w - pair.of.y;
+    if (e < nodes) {
+        uint n = texelFetch(surface_nodes, int(pair.of.x + e)).x;
+        return Element(false, n, uvec2(n), pair.to.x, pair.to.z - pair.to.x);
+    }
+    if (e - nodes >= edges || !pair.has_edges) return Element(false, 0u, uvec2(0u), 0u, 0u);
+    uint edge = pair.of.y + e - nodes;
+    return Element(true, edge, texelFetch(face_edges, int(edge)).xy, pair.to.y, pair.to.w - pair.to.y);
+}
+
+// The nodes of a face or edge that is tested; z of an edge is its second end again.
+uvec3 nodes_of(Element element, uint second) {
+    if (element.is_edge) return texelFetch(face_edges, int(second)).xyy;
+    return texelFetch(faces, int(second)).xyz;
+}
+
+// Of one body, sides have no node in common, and of two edges the first one has the pair.
+bool may_meet(LeafPair pair, Element element, uint second, uvec3 nodes) {
+    if (pair.object != pair.other) return true;
+    return !(element.is_edge && second <= element.number) && !any(equal(nodes, uvec3(element.nodes.x))) &&
+           !any(equal(nodes, uvec3(element.nodes.y)));
+}
+
+struct Measured {
+    vec4 weights;
+    vec3 normal;
+    float gap;
+};
+
+Measured measure(Element element, uvec3 nodes) {
+    vec3 a = position(element.nodes.x), c = position(nodes.x), d = position(nodes.y), apart;
+    vec4 weights;
+    if (element.is_edge) {
+        EdgeToEdge at = edge_to_edge(a, position(element.nodes.y), c, d);
+        apart = at.apart;
+        weights = vec4(1.0 - at.fraction, at.fraction, 1.0 - at.other_fraction, at.other_fraction);
+    } else {
+        NodeToFace at = node_to_face(a, mat3(c, d, position(nodes.z)));
+        apart = at.apart;
+        weights = vec4(1.0, at.weights);
+    }
+    float gap = length(apart);
+    return Measured(weights, gap > 0.0 ? apart / gap : vec3(0.0), gap);
+}
+
+// How far a direction separates both sides where paths end.
+float separation(Element element, uvec3 nodes, vec3 direction) {
+    vec3 origin = path_end(element.nodes.x);
+    float top = max(dot(direction, path_end(element.nodes.y) - origin), 0.0);
+    vec3 heights = vec3(dot(direction, path_end(nodes.x) - origin), dot(direction, path_end(nodes.y) - origin),
+                        dot(direction, path_end(nodes.z) - origin));
+    return min(heights.x, min(heights.y, heights.z)) - top;
+}
+
+float reach_of(LeafPair pair) { return thickness_of(pair.object) + thickness_of(pair.other); }
+
+#ifdef LIST
+// Of a difference of heights along the normal.
+float rounding_of(Element element, uvec3 nodes, vec3 normal) {
+    vec3 origin = position(element.nodes.x), extent = vec3(0.0), reach = abs(origin);
+    uvec4 others = uvec4(element.nodes.y, nodes);
+    for (int k = 0; k < 4; ++k) {
+        vec3 x = position(others[k]);
+        extent = max(extent, abs(x - origin));
+        reach = max(reach, abs(x));
+    }
+    return kEpsilon * dot(abs(normal), 8.0 * extent + 4.0 * reach);
+}
+
+NearPair make_pair(LeafPair pair, Element element, uint second) {
+    uvec3 nodes = nodes_of(element, second);
+    uvec4 all = element.is_edge ? uvec4(element.nodes, nodes.xy) : uvec4(element.nodes.x, nodes);
+    Measured at = measure(element, nodes);
+    return NearPair(all.x, all.y, all.z, all.w, at.weights, vec4(at.normal, at.gap), element.number, second,
+                    element.is_edge ? 1u : 0u, pair.slot, pair.object, pair.other, reach_of(pair),
+                    rounding_of(element, nodes, at.normal));
+}
+
+void main() {
+    uint index = global_index(), p = index / kLanesALeafPair, lane = index % kLanesALeafPair;
+    if (p >= dispatches[kWrites].count || !goes_on()) return;
+    LeafPair pair = fetch_leaf_pair(p);
+    uint place = list_start(hit_starts, hit_sums, p);
+    for (uint k = index - lane; k < index; ++k) {
+        uvec2 before = texelFetch(hits, int(k)).xy;
+        place += uint(bitCount(before.x) + bitCount(before.y));
+    }
+    uvec2 own = texelFetch(hits, int(index)).xy;
+    for (uint k = 0u; k < 3u; ++k) {
+        uint bits = k < 2u ? own.x >> (16u * k) & 0xFFFFu : own.y;
+        if (bits == 0u) continue;
+        Element element = fetch_element(pair, lane + kLanesALeafPair * k);
+        for (; bits != 0u && place < pair_capacity; bits &= bits - 1u)
+            near_pairs[place++] = make_pair(pair, element, element.first + uint(findLSB(bits)));
+    }
+}
+#else
+// The bits of what is near an element.
+uint test_element(LeafPair pair, Element element) {
+    uint candidates = 0u, near = 0u;
+    if (element.count == 0u) return 0u;
+    Frame frame = frame_of(pair.object), other = frame_of(pair.other);
+    Bounds box = swept(path_bounds(element.nodes.xyy, frame), frame.motion - other.motion);
+    for (uint k = 0u; k < element.count; ++k) {
+        uvec3 nodes = nodes_of(element, element.first + k);
+        bool is_candidate = may_meet(pair, element, element.first + k, nodes) && meet(box, path_bounds(nodes, other));
+        candidates |= uint(is_candidate) << k;
+    }
+    float wanted = reach_of(pair) + slack_of(pair.object) + slack_of(pair.other);
+    for (; candidates != 0u; candidates &= candidates - 1u) {
+        uint k = uint(findLSB(candidates));
+        uvec3 nodes = nodes_of(element, element.first + k);
+        Measured at = measure(element, nodes);
+        bool is_far = at.gap > wanted && separation(element, nodes, at.normal) > wanted;
+        near |= uint(!is_far) << k;
+    }
+    return near;
+}
+
+shared uint lane_hits[64];
+
+void main() {
+    uint index = global_index(), p = index / kLanesALeafPair, lane = index % kLanesALeafPair;
+    uvec2 own = uvec2(0u);
+    bool is_pair = p < dispatches[2u * kOfLeafPairs].count && goes_on();
+    if (is_pair) {
+        LeafPair pair = fetch_leaf_pair(p);
+        for (uint k = 0u; k < 3u; ++k) {
+            uint bits = test_element(pair, fetch_element(pair, lane + kLanesALeafPair * k));
+            if (k < 2u) {
+                own.x |= bits << (16u * k);
+            } else {
+                own.y = bits;
+            }
+        }
+        hits[index] = own;
+    }
+    uint here = gl_LocalInvocationID.x, count = 0u;
+    lane_hits[here] = uint(bitCount(own.x) + bitCount(own.y));
+    barrier();
+    if (!is_pair || lane != 0u) return;
+    for (uint k = 0u; k < kLanesALeafPair; ++k) count += lane_hits[here + k];
+    starts[p] = count;
+}
+#endif

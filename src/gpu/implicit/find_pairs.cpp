@@ -1,0 +1,219 @@
+#include "gpu/implicit/find_pairs.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "gpu/collision/update_boxes.h"
+#include "layouts_pair_stages_dev.h"
+
+namespace gelatin::gpu {
+namespace {
+
+namespace stages = pair_stages;
+
+gl::Program implicit_program(const char* file, const gl::Defines& defines = {}) {
+    return gl::Program::compute(std::string("sim/implicit/") + file, defines);
+}
+
+std::vector<glm::uvec2> nodes_of_objects(const Model& model) {
+    std::vector<glm::uvec2> nodes;
+    for (const ModelObject& object : model.objects)
+        nodes.emplace_back(object.nodes.first, object.nodes.end());
+    return nodes;
+}
+
+// Of each object in the list of leaves, and the end.
+std::vector<std::uint32_t> leaf_starts_of(const BoxTree& trees) {
+    const std::vector<std::uint32_t>& leaves = trees.levels[0];
+    std::vector<std::uint32_t> starts;
+    for (const std::uint32_t root : trees.roots)
+        starts.push_back(static_cast<std::uint32_t>(std::lower_bound(leaves.begin(), leaves.end(), root) -
+                                                    leaves.begin()));
+    starts.push_back(static_cast<std::uint32_t>(leaves.size()));
+    return starts;
+}
+
+}  // namespace
+
+FindPairs::Programs::Programs(bool finds_own)
+    : find_paths(implicit_program("find_paths.comp")),
+      box_leaves(implicit_program("box_paths.comp", {"LEAVES"})),
+      box_nodes(implicit_program("box_paths.comp")),
+      count_slots(implicit_program("find_slots.comp")),
+      place_slots(implicit_program("place_slots.comp")),
+      list_slots(implicit_program("find_slots.comp", {"LIST"})),
+      count_searches(implicit_program("find_searches.comp")),
+      list_searches(implicit_program("find_searches.comp", {"LIST"})),
+      count_leaf_pairs(implicit_program("find_leaf_pairs.comp")),
+      list_leaf_pairs(implicit_program("find_leaf_pairs.comp", {"LIST"})),
+      test_leaf_pairs(implicit_program("test_leaf_pairs.comp")),
+      list_pairs(implicit_program("test_leaf_pairs.comp", {"LIST"})),
+      sum_counts(implicit_program("sum_counts.comp")),
+      place_lists(implicit_program("place_lists.comp")),
+      end_slots(implicit_program("end_slots.comp")),
+      own(finds_own) {
+    if (!own) return;
+    find_rotations = implicit_program("find_rotations.comp");
+    find_lost_on_paths = implicit_program("find_lost.comp");
+    find_lost = implicit_program("find_lost.comp", {"ENDS"});
+}
+
+std::vector<const gl::Program*> FindPairs::Programs::all() const {
+    std::vector<const gl::Program*> all = {
+        &find_paths,      &box_leaves,     &box_nodes,     &count_slots,      &place_slots,
+        &list_slots,      &count_searches, &list_searches, &count_leaf_pairs, &list_leaf_pairs,
+        &test_leaf_pairs, &list_pairs,     &sum_counts,    &place_lists,      &end_slots};
+    if (own) all.insert(all.end(), {&find_rotations, &find_lost_on_paths, &find_lost});
+    return all;
+}
+
+FindPairs::Starts::Starts(std::size_t capacity)
+    : starts(capacity + 1, gl::TexelFormat::r32ui),
+      group_sums(capacity / stages::kCountsAGroup + 1, gl::TexelFormat::r32ui) {}
+
+FindPairs::FindPairs(const Model& model, const ContactSurface& surface, const StepState& state,
+                     PairBuffers& pairs, bool own)
+    : state_(state),
+      pairs_(pairs),
+      object_count_(static_cast<std::uint32_t>(model.objects.size())),
+      body_count_(static_cast<std::uint32_t>(model.body_count())),
+      programs_(own),
+      trees_(model.face_trees),
+      object_nodes_(nodes_of_objects(model), gl::TexelFormat::rg32ui),
+      face_starts_(model.surface_parts.face_starts, gl::TexelFormat::rg32ui),
+      leaf_starts_(leaf_starts_of(model.face_trees), gl::TexelFormat::r32ui),
+      surface_nodes_(model.surface_parts.nodes, gl::TexelFormat::r32ui),
+      face_edges_(model.surface_parts.edges, gl::TexelFormat::rgba32ui),
+      convex_(model, surface, own),
+      speeds_(model.objects.size()),
+      dispatches_(std::vector<Dispatch>(stages::kPairDispatches, Dispatch{0, 1, 1, 0})) {
+    grow();
+}
+
+void FindPairs::grow() {
+    const PairCapacity& most = pairs_.capacity;
+    of_slots_ = Starts(most.slots);
+    of_searches_ = Starts(most.searches);
+    of_leaf_pairs_ = Starts(most.leaf_pairs);
+    searches_ = {most.searches, gl::TexelFormat::rg32ui};
+    leaf_pairs_ = {most.leaf_pairs, gl::TexelFormat::rg32ui};
+    hits_ = {stages::kLanesALeafPair * most.leaf_pairs, gl::TexelFormat::rg32ui};
+    bind_buffers();
+}
+
+// But for what differs from run to run.
+void FindPairs::bind_buffers() const {
+    for (const gl::Program* program : programs_.all()) {
+        state_.bind(*program);
+        pairs_.bind(*program);
+        convex_.bind(*program);
+        bind_tables(*program);
+        bind_lists(*program);
+    }
+    for (const auto& [program, starts] : {std::pair(&programs_.count_searches, &of_slots_),
+                                          {&programs_.count_leaf_pairs, &of_searches_},
+                                          {&programs_.test_leaf_pairs, &of_leaf_pairs_}})
+        program->bind("Starts", starts->starts.values);
+}
+
+void FindPairs::bind_tables(const gl::Program& program) const {
+    const auto bind_one = [&](const char* name, const auto& buffer) {
+        if (program.declares(name)) program.bind(name, buffer);
+    };
+    program.set("finds_own", programs_.own ? 1u : 0u);
+    bind_one("positions", state_.from.position_texels);
+    bind_one("tree_nodes", trees_.node_texels);
+    bind_one("tree_boxes", trees_.box_texels);
+    bind_one("TreeBoxes", trees_.boxes);
+    bind_one("roots", trees_.root_texels);
+    bind_one("LevelNodes", trees_.level_nodes);
+    bind_one("object_nodes", object_nodes_);
+    bind_one("face_starts", face_starts_);
+    bind_one("leaf_starts", leaf_starts_);
+    bind_one("surface_nodes", surface_nodes_);
+    bind_one("face_edges", face_edges_);
+}
+
+void FindPairs::bind_lists(const gl::Program& program) const {
+    const auto bind_one = [&](const char* name, const auto& buffer) {
+        if (program.declares(name)) program.bind(name, buffer);
+    };
+    bind_one("Speeds", speeds_);
+    bind_one("Dispatches", dispatches_);
+    bind_one("search_starts", of_slots_.starts.texels);
+    bind_one("search_sums", of_slots_.group_sums.texels);
+    bind_one("walk_starts", of_searches_.starts.texels);
+    bind_one("walk_sums", of_searches_.group_sums.texels);
+    bind_one("hit_starts", of_leaf_pairs_.starts.texels);
+    bind_one("hit_sums", of_leaf_pairs_.group_sums.texels);
+    bind_one("Searches", searches_.values);
+    bind_one("searches", searches_.texels);
+    bind_one("LeafPairs", leaf_pairs_.values);
+    bind_one("leaf_pairs", leaf_pairs_.texels);
+    bind_one("Hits", hits_.values);
+    bind_one("hits", hits_.texels);
+}
+
+void FindPairs::run_groups(const gl::Program& program, std::size_t groups) const {
+    program.dispatch_groups(groups);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
+}
+
+void FindPairs::run_counted(const gl::Program& program, std::uint32_t dispatch) const {
+    program.dispatch_indirect(dispatches_.id(), dispatch * sizeof(Dispatch));
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+}
+
+// Of the next list.
+void FindPairs::place(std::uint32_t stage) const {
+    const Starts& list = stage == stages::kOfSlots      ? of_slots_
+                         : stage == stages::kOfSearches ? of_searches_
+                                                        : of_leaf_pairs_;
+    for (const gl::Program* program : {&programs_.sum_counts, &programs_.place_lists}) {
+        program->set("stage", stage);
+        program->bind("GroupSums", list.group_sums.values);
+    }
+    programs_.sum_counts.bind("Starts", list.starts.values);
+    run_counted(programs_.sum_counts, 2 * stage + 1);
+    run_groups(programs_.place_lists, 1);
+}
+
+void FindPairs::find_boxes(const ModelBuffers& model) const {
+    programs_.box_leaves.bind("faces", model.face_texels);
+    for (std::size_t level = 0; level < trees_.level_count(); ++level)
+        update_level(level == 0 ? programs_.box_leaves : programs_.box_nodes, trees_, level);
+}
+
+void FindPairs::run(const ModelBuffers& model) const {
+    const Programs& p = programs_;
+    run_groups(p.find_paths, object_count_);
+    find_boxes(model);
+    if (convex_.tet_count > 0) {
+        run_groups(p.find_rotations, body_count_);
+        run_groups(p.find_lost_on_paths, (convex_.tet_count + 63) / 64);
+    }
+    run_groups(p.count_slots, object_count_);
+    run_groups(p.place_slots, 1);
+    run_groups(p.list_slots, object_count_);
+    run_counted(p.count_searches, 2 * stages::kOfSlots);
+    place(stages::kOfSlots);
+    run_counted(p.list_searches, 2 * stages::kOfSlots);
+    run_counted(p.count_leaf_pairs, 2 * stages::kOfSearches);
+    place(stages::kOfSearches);
+    run_counted(p.list_leaf_pairs, 2 * stages::kOfSearches);
+    for (const gl::Program* program : {&p.test_leaf_pairs, &p.list_pairs})
+        program->bind("faces", model.face_texels);
+    run_counted(p.test_leaf_pairs, 2 * stages::kOfLeafPairs);
+    place(stages::kOfLeafPairs);
+    run_counted(p.list_pairs, stages::kWrites);
+    run_counted(p.end_slots, stages::kSlotEnds);
+}
+
+void FindPairs::find_lost(const NodeBuffers& ends) const {
+    if (convex_.tet_count == 0) return;
+    programs_.find_lost.bind("ends", ends.position_texels);
+    run_groups(programs_.find_lost, (convex_.tet_count + 63) / 64);
+}
+
+}  // namespace gelatin::gpu
