@@ -41,3 +41,4 @@ const float kTolerance = 1e-4;
 const float kAtRest = 0.001;
 const float kInIsland = 0.1;
 const float kRoundings = 2.0;
+const float kKept = 0.1;

@@ -33,8 +33,8 @@ struct PairCounts {      // 32 bytes
     uint  pairs;         // NearPairs
     float fastest;       // cpu::FindPairs::fastest_approach [reaches]
     uint  is_full;       // 1: some had no place
-    uint  unused_0;
-    uint  unused_1;
+    uint  has_lost;      // 1: bodies have lost distances where the guard has left them
+    uint  unused;
 };
 // What a contact of two objects passes on to the next part.
 struct RowMemory {       // 32 bytes

@@ -28,6 +28,11 @@ namespace packing {
 #include "layouts/packing.glsl"
 }  // namespace packing
 
+/// Stages of the search for pairs of surfaces that are near each other.
+namespace pair_stages {
+#include "layouts/pair_stages.glsl"
+}  // namespace pair_stages
+
 /// What decides in the geometric predicates.
 namespace predicates {
 #include "layouts/predicates.glsl"

@@ -170,7 +170,7 @@ TEST_F(LayoutsTest, NearPairs) {
     check("near_pair.glsl", "PairCounts", sizeof(PairCounts),
           {FIELD(PairCounts, slots), FIELD(PairCounts, searches), FIELD(PairCounts, leaf_pairs),
            FIELD(PairCounts, pairs), FIELD(PairCounts, fastest), FIELD(PairCounts, is_full),
-           FIELD(PairCounts, unused_0), FIELD(PairCounts, unused_1)});
+           FIELD(PairCounts, has_lost), FIELD(PairCounts, unused)});
     check("near_pair.glsl", "RowMemory", sizeof(RowMemory),
           {FIELD(RowMemory, hold), FIELD(RowMemory, reach), FIELD(RowMemory, first), FIELD(RowMemory, second),
            FIELD(RowMemory, is_edges)});

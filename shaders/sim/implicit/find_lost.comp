@@ -5,7 +5,6 @@
 #include "layouts/contact_tuning.glsl"
 #include "layouts/near_pair.glsl"
 #include "sim/implicit/clock.glsl"
-const float kKept = 0.1;
 layout(local_size_x = 64) in;
 
 uniform usamplerBuffer convex_tets;    // their corners
@@ -72,6 +71,6 @@ void main() {
     bool grew = false;
     for (int k = 0; k < 4; ++k) grew = add_to_box(body, texelFetch(rest_positions, int(tet[k])).xyz) || grew;
 #ifdef ENDS
-    if (grew) counts[0].unused_0 = 1u;
+    if (grew) counts[0].has_lost = 1u;
 #endif
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "gpu/collision/update_boxes.h"
-#include "layouts_pair_stages_dev.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::gpu {
 namespace {

@@ -62,6 +62,7 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kTolerance, static_cast<float>(cpu::kTolerance));
     EXPECT_EQ(gpu::kAtRest, static_cast<float>(cpu::kAtRest));
     EXPECT_EQ(gpu::kInIsland, static_cast<float>(cpu::kInIsland));
+    EXPECT_EQ(gpu::kKept, static_cast<float>(cpu::kKept));
     EXPECT_EQ(gpu::kRoundings, static_cast<float>(cpu::kRoundings));
 }
 

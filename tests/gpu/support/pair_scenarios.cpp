@@ -22,7 +22,7 @@ namespace tuning = cpu::tuning;
 double pair_error(const PairCase& at, std::size_t least) {
     const FoundPairs found = PairsOnGpu(at).run();
     return std::max(error_of_pairs(at, found),
-                    error_if(found.counts.pairs < least || found.counts.unused_0 != 0));
+                    error_if(found.counts.pairs < least || found.counts.has_lost != 0));
 }
 
 // By velocities and random numbers.
@@ -191,7 +191,7 @@ double guarded_error() {
     is_right = is_right && gpu.find_lost(ends);
     gpu.set_path_ends(ends);
     const FoundPairs more = gpu.run(2);
-    is_right = is_right && more.counts.unused_0 == 0 && own_count(more) > own_count(again);
+    is_right = is_right && more.counts.has_lost == 0 && own_count(more) > own_count(again);
     return error_if(!is_right || gpu.find_lost(ends));
 }
 

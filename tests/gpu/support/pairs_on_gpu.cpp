@@ -99,7 +99,7 @@ void PairsOnGpu::limit(const gpu::PairCapacity& capacity) {
 
 bool PairsOnGpu::find_lost(const std::vector<glm::vec4>& ends) {
     find_.find_lost(gpu::NodeBuffers(ends, model_.velocities));
-    return all_of(pairs_.counts)[0].unused_0 != 0;
+    return all_of(pairs_.counts)[0].has_lost != 0;
 }
 
 bool PairsOnGpu::is_untouched_behind_the_end() {
