@@ -4,14 +4,16 @@
 // CPU twins: gelatin::cpu::ImplicitStep::run, EnergyAccount::settle, Restitution, TimeScheme::end.
 // Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kLanes = 128u;
-#include "layouts/step_system.glsl"
-#include "sim/implicit/energy_gain.glsl"
+#include "layouts/step_end.glsl"
+#include "layouts/step_state.glsl"
+#include "sim/implicit/most_gained.glsl"
+#include "sim/implicit/object_sums.glsl"
+#include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/impacts.glsl"
+#include "sim/implicit/inverse_inertia.glsl"
 #include "sim/implicit/time_scheme.glsl"
 layout(local_size_x = 128) in;
 
-uniform samplerBuffer bodies;  // StepBody, five texels each
-#include "sim/implicit/inverse_inertia.glsl"
 layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) buffer Paces { BodyPace paces[]; };
 layout(std430) buffer BodyEnergies { BodyEnergy energies[]; };
@@ -28,27 +30,31 @@ void rigid_velocity(uint o, double mass, dvec3 momentum, dvec3 angular, out dvec
 // How fast a free body's momenta have changed. @param angular momentum about its centre of mass
 void find_rates(uint o, float size, dvec3 momentum, dvec3 angular) {
     BodyPace pace = paces[o];
-    Scheme scheme = scheme_of(size, pace.past);
+    Scheme scheme = scheme_of(size, energies[o].is_whole != 0u ? 0.0 : pace.past);
     dvec3 before = part_sums_of(o, kStartMomentum);
     dvec3 angular_before = part_sums_of(o, kStartAngular) - cross(part_sums_of(o, kStartArm) / double(pace.velocity.w), before);
     paces[o].force = vec4(rate_by(scheme, pace.force.xyz, vec3(momentum - before)), 0.0);
     paces[o].moment = vec4(rate_by(scheme, pace.moment.xyz, vec3(angular - angular_before)), 0.0);
 }
 
-// What is owed, as far as the body vibrates.
-void pay(inout BodyGain gain, inout BodyChange change) {
-    double left = max(gain.owed, 0.0LF);
-    if (gain.dues > 0.0LF && gain.vibrations > 0.0LF) {
-        double part = min(gain.dues / gain.vibrations, 1.0LF);
+double island_sum(uint o, uint k) { return island_sums[o * kIslandSums + k]; }
+
+// What an island owes, as far as it vibrates. Its bodies have shares of what is left by their masses.
+// @param energy of the body where the part ends [J] @return its share [J]
+double pay(uint o, inout double energy, inout BodyChange change) {
+    double left = max(island_sum(o, kIslandOwed), 0.0LF), dues = island_sum(o, kIslandDues);
+    double vibrations = island_sum(o, kIslandVibrations);
+    if (dues > 0.0LF && vibrations > 0.0LF) {
+        double part = min(dues / vibrations, 1.0LF);
         change.center.w = float(1.0LF - sqrt(1.0LF - part));
-        left -= part * gain.vibrations;
-        gain.after_all -= part * gain.vibrations;
+        left -= part * vibrations;
+        energy -= part * object_sums[o * kObjectSums + kVibrations];
     }
-    gain.after.debt = left;
+    return double(paces[o].velocity.w) / island_sum(o, kIslandMass) * left;
 }
 
 // Of a free body, what happens to its motion; else its impacts are forgotten. @return whether it is struck
-bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], BodyGain gain, inout BodyChange change) {
+bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], double energy, inout BodyChange change) {
     if (!is_free) {
         for (uint p = 0u; p < collider_count; ++p)
             for (uint k = 0u; k < kMeeting; ++k) meetings[(p * object_count + o) * kMeeting + k] = 0.0LF;
@@ -56,14 +62,14 @@ bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], Bo
     }
     double mass = double(paces[o].velocity.w);
     dvec3 momentum = triple(motion, kMomentum);
-    dvec3 turning = dvec3(energy_sum(o, kTurning), energy_sum(o, kTurning + 1u), energy_sum(o, kTurning + 2u));
+    dvec3 turning = energy_sums_of(o, kTurning);
     Impacting body;
     body.size = size;
     body.now = rigid_part_of(motion);
     rigid_velocity(o, mass, part_sums_of(o, kStartMomentum), part_sums_of(o, kStartAngular), body.before, body.spin_before);
     rigid_velocity(o, mass, momentum, turning, body.after, body.spin_after);
-    body.energy_before = gain.before_all;
-    body.energy = gain.after_all;
+    body.energy_before = energies[o].elastic + part_sum(o, kStartKinetic) + part_sum(o, kStartPotential);
+    body.energy = energy;
     body.impulse = body.moment = dvec3(0.0LF);
     body.is_struck = false;
     for (uint p = 0u; p < collider_count; ++p) bounce(p, o, body);
@@ -77,14 +83,15 @@ bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], Bo
 
 void make(uint o, float size) {
     bool is_free = texelFetch(bodies, 5 * int(o)).w > 0.0, was_stopped = changes[o].action == 3u;
-    double motion[kMotionSums];
+    double motion[kMotionSums], elastic = energy_sum(o, kElastic);
     find_motion(o, motion);
-    BodyGain gain = gain_of(o, paces[o], energies[o], motion, is_free);
     BodyChange change = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), 1u, 0u, 0u, 0u);
-    pay(gain, change);
-    bool is_struck = end_motion(o, size, is_free, motion, gain, change);
+    double energy = elastic + energy_sum(o, kKinetic) + energy_sum(o, kPotential), debt = pay(o, energy, change);
+    bool is_struck = end_motion(o, size, is_free, motion, energy, change);
     paces[o].is_struck = is_struck || was_stopped ? 1u : 0u;
-    energies[o] = gain.after;
+    energies[o].elastic = elastic;
+    energies[o].contacts = part_sum(o, kContactsAtEnd);
+    energies[o].debt = debt;
     changes[o] = change;
 }
 
@@ -92,26 +99,21 @@ void make(uint o, float size) {
 void stay(uint o, float size) {
     paces[o].is_struck = 1u;
     find_rates(o, size, dvec3(0.0LF), dvec3(0.0LF));
-    energies[o] = BodyEnergy(energies[o].elastic, 0.0LF, 0.0LF);
+    energies[o].contacts = energies[o].debt = 0.0LF;
     changes[o] = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), 2u, 0u, 0u, 0u);
 }
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
     StepClock now = clock[0];
-    float gained = 0.0, shortest = now.size / float(kMostParts);
+    float gained = most_gained(), shortest = now.size / float(kMostParts);
     bool is_tried = now.goes_on != 0u;
-    double motion[kMotionSums];
-    for (uint o = lane; is_tried && o < object_count; o += kLanes) {
-        find_motion(o, motion);
-        gained = max(gained, gain_of(o, paces[o], energies[o], motion, texelFetch(bodies, 5 * int(o)).w > 0.0).gained);
-    }
-    gained = most_gained(gained);
     bool is_too_long = !(now.step < 2.0 * shortest) && gained > kMostGain, is_made = is_tried && !is_too_long;
     for (uint o = lane; o < object_count; o += kLanes) {
-        if (!is_made) changes[o].action = 0u;
+        if (!is_made || o >= body_count) changes[o].action = is_made ? 1u : 0u;  // what is no body goes where it goes
         else if (is_finite(gained)) make(o, now.step);
         else stay(o, now.step);
+        if (is_made) energies[o].tied = energies[o].next_tied;
     }
     if (lane != 0u || !is_tried) return;
     now.gained = gained;
@@ -126,6 +128,7 @@ void main() {
         now.step *= 0.5;
         now.goes_on = 0u;
     }
+    now.guards = 0u;
     now.is_guarded = clock[0].is_guarded;
     clock[0] = now;
 }

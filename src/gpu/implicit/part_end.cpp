@@ -24,16 +24,35 @@ std::vector<glm::uvec4> elements_of(const Model& model) {
     return elements;
 }
 
+// Velocities of surfaces within themselves [m/s]; w: the object.
+std::vector<glm::vec4> objects_by_node(const Model& model) {
+    std::vector<glm::vec4> objects;
+    for (std::size_t o = 0; o < model.objects.size(); ++o) {
+        const glm::vec3 velocity = o < model.body_count() ? glm::vec3(0.0f)
+                                                          : model.surfaces[o - model.body_count()].velocity;
+        objects.resize(objects.size() + model.objects[o].nodes.count, {velocity, static_cast<float>(o)});
+    }
+    return objects;
+}
+
+// Each body goes on by itself.
+std::vector<BodyEnergy> unknown_energies(std::uint32_t count) {
+    std::vector<BodyEnergy> energies(count);
+    for (std::uint32_t o = 0; o < count; ++o) energies[o].tied = energies[o].next_tied = o;
+    return energies;
+}
+
 gl::Buffer<double> zeros(std::size_t count) {
     return gl::Buffer<double>(std::vector<double>(std::max<std::size_t>(count, 1)));
 }
 
 }  // namespace
 
-PartEnd::Programs::Programs(const Model& model)
+PartEnd::Programs::Programs(const Model& model, bool contacts)
     : sum_motions(gl::Program::compute("sim/implicit/sum_motions.comp")),
       finish(gl::Program::compute("sim/implicit/finish.comp", SumLoads::defines(model))),
       keep(energies_program(model, {"KEEP"})),
+      sum_velocities(gl::Program::compute("sim/implicit/sum_velocities.comp")),
       measure(gl::Program::compute("sim/implicit/measure_part.comp", SumLoads::defines(model))),
       sum_chunks(gl::Program::compute("sim/implicit/sum_chunks.comp")),
       judge(gl::Program::compute("sim/implicit/judge.comp")),
@@ -44,23 +63,34 @@ PartEnd::Programs::Programs(const Model& model)
       settle(gl::Program::compute("sim/implicit/settle.comp")),
       commit(gl::Program::compute("sim/implicit/commit.comp")),
       find_energies(energies_program(model, {})),
-      begin_energies(gl::Program::compute("sim/implicit/begin_energies.comp")) {}
-
-std::vector<const gl::Program*> PartEnd::Programs::all() const {
-    return {&sum_motions,     &finish,        &keep, &measure, &sum_chunks, &judge,         &guard,
-            &measure_guarded, &judge_guarded, &stop, &settle,  &commit,     &find_energies, &begin_energies};
+      begin_energies(gl::Program::compute("sim/implicit/begin_energies.comp")),
+      has_contacts(contacts) {
+    if (!contacts) return;
+    tie_bodies = gl::Program::compute("sim/implicit/tie_bodies.comp");
+    sum_guarded = gl::Program::compute("sim/implicit/sum_guarded.comp");
 }
 
-PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system)
+std::vector<const gl::Program*> PartEnd::Programs::all() const {
+    std::vector<const gl::Program*> all = {
+        &sum_motions, &finish,          &keep,          &sum_velocities, &measure, &sum_chunks, &judge,
+        &guard,       &measure_guarded, &judge_guarded, &stop,           &settle,  &commit,     &find_energies,
+        &begin_energies};
+    if (has_contacts) all.insert(all.end(), {&tie_bodies, &sum_guarded});
+    return all;
+}
+
+PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system, const ContactSurface* contacts)
     : state_(&state),
       system_(&system),
       chunk_count_(system.buffers().chunk_count),
       object_count_(system.buffers().object_count),
       has_colliders_(!model.colliders.empty()),
       masses_(model.masses),
-      programs_(model),
+      programs_(model, contacts != nullptr),
       springs_(model.springs, gl::TexelFormat::rgba32ui),
       elements_(elements_of(model), gl::TexelFormat::rgba32ui),
+      node_objects_(objects_by_node(model), gl::TexelFormat::rgba32f),
+      rigid_velocities_(object_count_, gl::TexelFormat::rgba32f),
       finish_sums_(zeros(end_sums::kFinishSums * chunk_count_)),
       energy_sums_(zeros(end_sums::kEnergySums * chunk_count_)),
       part_sums_(zeros(end_sums::kPartSums * chunk_count_)),
@@ -68,7 +98,8 @@ PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system)
       pressed_sums_(zeros(end_sums::kPressedSums * chunk_count_ * model.colliders.size())),
       meetings_(zeros(end_sums::kMeeting * object_count_ * model.colliders.size())),
       object_sums_(zeros(end_sums::kObjectSums * object_count_)),
-      energies_(std::vector<BodyEnergy>(object_count_)),
+      island_sums_(zeros(end_sums::kIslandSums * object_count_)),
+      energies_(unknown_energies(object_count_)),
       changes_(std::vector<BodyChange>(object_count_)) {
     for (const ModelObject& object : model.objects) nodes_.push_back(object.nodes);
     bind_buffers(model);
@@ -92,6 +123,10 @@ void PartEnd::bind_buffers(const Model& model) const {
         bind("PressedSums", pressed_sums_);
         bind("Meetings", meetings_);
         bind("ObjectSums", object_sums_);
+        bind("IslandSums", island_sums_);
+        bind("RigidVelocities", rigid_velocities_.values);
+        bind("rigid_velocities", rigid_velocities_.texels);
+        bind("node_objects", node_objects_);
         bind("BodyEnergies", energies_);
         bind("BodyChanges", changes_);
         bind("springs", springs_);
@@ -125,6 +160,10 @@ void PartEnd::bind_nodes() const {
     for (const gl::Program* program : {&p.keep, &p.stop, &p.finish})
         program->bind("EndVelocities", to.velocities);
     for (const gl::Program* program : {&p.finish, &p.guard}) program->bind("EndPositions", to.positions);
+    if (p.has_contacts) {
+        p.sum_guarded.bind("positions", from.position_texels);
+        p.sum_guarded.bind("end_positions", to.position_texels);
+    }
     p.commit.bind("Positions", from.positions);
     p.commit.bind("Velocities", from.velocities);
     p.commit.bind("end_positions", to.position_texels);
@@ -142,33 +181,56 @@ void PartEnd::begin_step(const ModelBuffers& model) const {
     run(programs_.begin_energies, (object_count_ + 63) / 64);
 }
 
-void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
+void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
     const Programs& p = programs_;
     for (const gl::Program* program : {&p.finish, &p.measure}) {
         if (loads != nullptr) loads->bind(*program);
         model.pulls.bind(*program);
     }
-    for (const gl::Program* program : {&p.keep, &p.measure_guarded, &p.stop})
-        model.volume_term.bind(*program);
-    model.bind_colliders(p.guard);
-    for (const gl::Program* program : {&p.measure, &p.settle}) program->bind("colliders", model.colliders);
-    {
-        const TimedStage part(timer, "advance_nodes.finish");
-        for (const gl::Program* program : {&p.sum_motions, &p.finish, &p.keep, &p.measure})
-            run(*program, chunk_count_);
-        run(p.sum_chunks, object_count_);
-        run(p.judge, 1);
-    }
+    model.volume_term.bind(p.keep);
+    p.measure.bind("colliders", model.colliders);
+    const TimedStage part(timer, "advance_nodes.finish");
+    if (p.has_contacts) run(p.tie_bodies, 1);
+    for (const gl::Program* program : {&p.sum_motions, &p.finish, &p.keep}) run(*program, chunk_count_);
+    run(p.sum_velocities, object_count_);
+    run(p.measure, chunk_count_);
+    run(p.sum_chunks, object_count_);
+    run(p.judge, 1);
+}
+
+void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
+    finish(model, loads, timer);
     const TimedStage part(timer, "advance_nodes.guard");
     if (has_colliders_) {
-        for (const gl::Program* program : {&p.guard, &p.measure_guarded}) run(*program, chunk_count_);
-        run(p.sum_chunks, object_count_);
-        run(p.judge_guarded, 1);
-        run(p.stop, chunk_count_);
-        run(p.sum_chunks, object_count_);
+        model.bind_colliders(programs_.guard);
+        run(programs_.guard, chunk_count_);
+        end_guarded(model);
     }
-    run(p.settle, 1);
-    run(p.commit, chunk_count_);
+    end_part(model);
+}
+
+void PartEnd::settle(const ModelBuffers& model, StageTimer* timer) const {
+    const TimedStage part(timer, "advance_nodes.guard");
+    run(programs_.sum_guarded, chunk_count_);
+    end_guarded(model);
+    end_part(model);
+}
+
+// Where it has moved nodes, energies are found anew.
+void PartEnd::end_guarded(const ModelBuffers& model) const {
+    const Programs& p = programs_;
+    for (const gl::Program* program : {&p.measure_guarded, &p.stop}) model.volume_term.bind(*program);
+    run(p.measure_guarded, chunk_count_);
+    run(p.sum_chunks, object_count_);
+    run(p.judge_guarded, 1);
+    run(p.stop, chunk_count_);
+    run(p.sum_chunks, object_count_);
+}
+
+void PartEnd::end_part(const ModelBuffers& model) const {
+    programs_.settle.bind("colliders", model.colliders);
+    run(programs_.settle, 1);
+    run(programs_.commit, chunk_count_);
 }
 
 void PartEnd::forget() {
@@ -177,7 +239,7 @@ void PartEnd::forget() {
     state_->plane_memories.upload(std::vector<PlaneMemory>(planes));
     state_->clock.upload(std::vector<StepClock>(1));
     state_->paces.values.upload(std::vector<BodyPace>(object_count_));
-    energies_.upload(std::vector<BodyEnergy>(object_count_));
+    energies_.upload(unknown_energies(object_count_));
     meetings_.upload(std::vector<double>(meetings_.size()));
 }
 
