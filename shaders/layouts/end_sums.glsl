@@ -71,11 +71,13 @@ const uint kMetImpulse = 4u;
 const uint kMetArm = 7u;
 const uint kMeeting = 10u;
 // Of an impact of two objects, the same of what presses the second, with arms from the centre of a body of the two that is free, the
-// second if both are; then the velocity of what is not free, times the sizes; and both objects.
+// second if both are; then the velocity of what is not free, times the sizes; both objects; and 1 + the number of the pair in the
+// tables by which they press each other now, 0: none.
 const uint kMetHeld = 10u;
 const uint kMetFirst = 13u;
 const uint kMetSecond = 14u;
-const uint kPairMeeting = 15u;
+const uint kMetPress = 15u;
+const uint kPairMeeting = 16u;
 // Of what presses two objects in a part: both; force; on the second force n; its moment about the centres of the second and of the
 // first; force times the arm; force times the velocity of what is not free; and by how much that takes them apart.
 const uint kPairFirst = 0u;

@@ -15,7 +15,7 @@ struct BodyChange {      // 64 bytes
     vec4  velocity;      // [m/s]
     vec4  spin;          // [rad/s]
     uint  action;        // 0: nothing; 1: the part is made; 2: it is made, and the body stays; 3: what the guard has moved is stopped
-    uint  unused_0;
+    uint  is_struck;     // 1: by another object
     uint  unused_1;
     uint  unused_2;
 };

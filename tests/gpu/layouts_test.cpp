@@ -109,7 +109,7 @@ TEST_F(LayoutsTest, StepEnds) {
            FIELD(BodyEnergy, schemes)});
     check("step_end.glsl", "BodyChange", sizeof(BodyChange),
           {FIELD(BodyChange, center), FIELD(BodyChange, velocity), FIELD(BodyChange, spin),
-           FIELD(BodyChange, action), FIELD(BodyChange, unused_0), FIELD(BodyChange, unused_1),
+           FIELD(BodyChange, action), FIELD(BodyChange, is_struck), FIELD(BodyChange, unused_1),
            FIELD(BodyChange, unused_2)});
 }
 

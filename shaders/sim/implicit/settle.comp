@@ -9,8 +9,8 @@ const uint kLanes = 128u;
 #include "sim/implicit/most_gained.glsl"
 #include "sim/implicit/object_sums.glsl"
 #include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/settled_bodies.glsl"
 #include "sim/implicit/impacts.glsl"
-#include "sim/implicit/inverse_inertia.glsl"
 #include "sim/implicit/time_scheme.glsl"
 layout(local_size_x = 128) in;
 
@@ -18,14 +18,6 @@ layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) buffer Paces { BodyPace paces[]; };
 layout(std430) buffer BodyEnergies { BodyEnergy energies[]; };
 layout(std430) buffer BodyChanges { BodyChange changes[]; };
-
-bool is_finite(float x) { return !isinf(x) && !isnan(x); }
-
-// The rigid part of velocities, for momentum and angular momentum about the centre where the part began. @param mass [kg]
-void rigid_velocity(uint o, double mass, dvec3 momentum, dvec3 angular, out dvec3 velocity, out dvec3 spin) {
-    velocity = momentum / mass;
-    spin = double(texelFetch(bodies, 5 * int(o) + 3).w) / mass * (dmat3(inverse_inertia_of(o)) * angular);
-}
 
 // How fast a free body's momenta have changed. @param angular momentum about its centre of mass
 void find_rates(uint o, float size, dvec3 momentum, dvec3 angular) {
@@ -37,41 +29,37 @@ void find_rates(uint o, float size, dvec3 momentum, dvec3 angular) {
     paces[o].moment = vec4(rate_by(scheme, pace.moment.xyz, vec3(angular - angular_before)), 0.0);
 }
 
-double island_sum(uint o, uint k) { return island_sums[o * kIslandSums + k]; }
-
-// What an island owes, as far as it vibrates. Its bodies have shares of what is left by their masses.
-// @param energy of the body where the part ends [J] @return its share [J]
-double pay(uint o, inout double energy, inout BodyChange change) {
-    double left = max(island_sum(o, kIslandOwed), 0.0LF), dues = island_sum(o, kIslandDues);
-    double vibrations = island_sum(o, kIslandVibrations);
-    if (dues > 0.0LF && vibrations > 0.0LF) {
-        double part = min(dues / vibrations, 1.0LF);
-        change.center.w = float(1.0LF - sqrt(1.0LF - part));
-        left -= part * vibrations;
-        energy -= part * object_sums[o * kObjectSums + kVibrations];
-    }
+// What an island owes, as far as it vibrates. Its bodies have shares of what is left by their masses. @return the body's [J]
+double pay(uint o, inout BodyChange change) {
+    double part = part_paid(o), left = max(island_sum(o, kIslandOwed), 0.0LF) - part * island_sum(o, kIslandVibrations);
+    change.center.w = float(1.0LF - sqrt(1.0LF - part));
     return double(paces[o].velocity.w) / island_sum(o, kIslandMass) * left;
 }
 
 // Of a free body, what happens to its motion; else its impacts are forgotten. @return whether it is struck
-bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], double energy, inout BodyChange change) {
+bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], inout BodyChange change) {
     if (!is_free) {
         for (uint p = 0u; p < collider_count; ++p)
             for (uint k = 0u; k < kMeeting; ++k) meetings[(p * object_count + o) * kMeeting + k] = 0.0LF;
         return false;
     }
-    double mass = double(paces[o].velocity.w);
     dvec3 momentum = triple(motion, kMomentum);
-    dvec3 turning = energy_sums_of(o, kTurning);
     Impacting body;
     body.size = size;
     body.now = rigid_part_of(motion);
-    rigid_velocity(o, mass, part_sums_of(o, kStartMomentum), part_sums_of(o, kStartAngular), body.before, body.spin_before);
-    rigid_velocity(o, mass, momentum, turning, body.after, body.spin_after);
-    body.energy_before = energies[o].elastic + part_sum(o, kStartKinetic) + part_sum(o, kStartPotential);
-    body.energy = energy;
+    rigid_velocity(o, part_sums_of(o, kStartMomentum), part_sums_of(o, kStartAngular), body.before, body.spin_before);
+    rigid_velocity(o, momentum, energy_sums_of(o, kTurning), body.after, body.spin_after);
+    body.energy_before = energy_before(o, energies[o].elastic);
+    body.energy = energy_after(o);
     body.impulse = body.moment = dvec3(0.0LF);
     body.is_struck = false;
+#ifdef PAIRS
+    BodyChange by_others = changes[o];
+    body.energy += double(by_others.center.w);
+    body.impulse = dvec3(by_others.velocity.xyz);
+    body.moment = dvec3(by_others.spin.xyz);
+    body.is_struck = by_others.is_struck != 0u;
+#endif
     for (uint p = 0u; p < collider_count; ++p) bounce(p, o, body);
     double part = double(change.center.w);
     change.center.xyz = vec3(body.now.center) + texelFetch(bodies, 5 * int(o)).xyz;
@@ -83,13 +71,13 @@ bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], do
 
 void make(uint o, float size) {
     bool is_free = texelFetch(bodies, 5 * int(o)).w > 0.0, was_stopped = changes[o].action == 3u;
-    double motion[kMotionSums], elastic = energy_sum(o, kElastic);
+    double motion[kMotionSums];
     find_motion(o, motion);
     BodyChange change = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), 1u, 0u, 0u, 0u);
-    double energy = elastic + energy_sum(o, kKinetic) + energy_sum(o, kPotential), debt = pay(o, energy, change);
-    bool is_struck = end_motion(o, size, is_free, motion, energy, change);
+    double debt = pay(o, change);
+    bool is_struck = end_motion(o, size, is_free, motion, change);
     paces[o].is_struck = is_struck || was_stopped ? 1u : 0u;
-    energies[o].elastic = elastic;
+    energies[o].elastic = energy_sum(o, kElastic);
     energies[o].contacts = part_sum(o, kContactsAtEnd);
     energies[o].debt = debt;
     changes[o] = change;
@@ -106,24 +94,23 @@ void stay(uint o, float size) {
 void main() {
     uint lane = gl_LocalInvocationID.x;
     StepClock now = clock[0];
-    float gained = most_gained(), shortest = now.size / float(kMostParts);
-    bool is_tried = now.goes_on != 0u;
-    bool is_too_long = !(now.step < 2.0 * shortest) && gained > kMostGain, is_made = is_tried && !is_too_long;
+    float gained = most_gained();
+    bool is_tried = now.goes_on != 0u, is_done = is_made(now, gained);
     for (uint o = lane; o < object_count; o += kLanes) {
-        if (!is_made || o >= body_count) changes[o].action = is_made ? 1u : 0u;  // what is no body goes where it goes
+        if (!is_done || o >= body_count) changes[o].action = is_done ? 1u : 0u;  // what is no body goes where it goes
         else if (is_finite(gained)) make(o, now.step);
         else stay(o, now.step);
-        if (is_made) energies[o].tied = energies[o].next_tied;
+        if (is_done) energies[o].tied = energies[o].next_tied;
     }
     if (lane != 0u || !is_tried) return;
     now.gained = gained;
     now.damps = 0u;
-    if (is_made) {
+    if (is_done) {
         now.left -= now.step;
         now.longest = 2.0 * now.step;
         now.last_step = now.step;
         ++now.made;
-        now.is_over = now.left > 0.5 * shortest ? 0u : 1u;
+        now.is_over = now.left > 0.5 * shortest_part(now) ? 0u : 1u;
     } else {
         now.step *= 0.5;
         now.goes_on = 0u;

@@ -1,7 +1,8 @@
 // With whom bodies go on. Of a force Newmark's scheme leaves a part to later parts, of a body and of what it touched alike. So where
-// bodies that touched each other go on by different schemes, what is left is dropped for all of them. One work group.
+// bodies that touched each other go on by different schemes, what is left is dropped for all of them. And how many pairs of objects have rows. One work group.
 // CPU twin: gelatin::cpu::TimeScheme::tie. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kLanes = 256u;
+#include "layouts/dispatch.glsl"
 #include "layouts/step_end.glsl"
 #include "sim/implicit/clock.glsl"
 #include "sim/implicit/solve_system.glsl"
@@ -13,7 +14,9 @@ uniform uint body_count;
 layout(std430) readonly buffer Paces { BodyPace paces[]; };
 layout(std430) coherent buffer BodyEnergies { BodyEnergy energies[]; };
 
-shared uint has_changed;
+layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
+
+shared uint has_changed, pair_count;
 
 void wait_for_group() {
     memoryBarrierBuffer();
@@ -33,11 +36,16 @@ void unite(uint a, uint b) {
 void main() {
     uint lane = gl_LocalInvocationID.x;
     if (!goes_on()) return;
+    if (lane == 0u) pair_count = 0u;
+    wait_for_group();
+    for (uint number = lane; number < object_count; number += kLanes)
+        atomicMax(pair_count, texelFetch(islands, 3 * int(number) + 2).y);
     for (uint o = lane; o < body_count; o += kLanes) {
         energies[o].schemes = 0u;
         energies[o].next_tied = o;
     }
     wait_for_group();
+    if (lane == 0u) dispatches[0] = Dispatch(min(pair_count, 65535u), 1u, 1u, min(pair_count, 65535u));
     for (uint o = lane; o < body_count; o += kLanes)
         atomicOr(energies[energies[o].tied].schemes, paces[o].past > 0.0 ? kNewmarks : kEulers);
     wait_for_group();

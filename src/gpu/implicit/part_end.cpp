@@ -28,8 +28,8 @@ std::vector<glm::uvec4> elements_of(const Model& model) {
 std::vector<glm::vec4> objects_by_node(const Model& model) {
     std::vector<glm::vec4> objects;
     for (std::size_t o = 0; o < model.objects.size(); ++o) {
-        const glm::vec3 velocity = o < model.body_count() ? glm::vec3(0.0f)
-                                                          : model.surfaces[o - model.body_count()].velocity;
+        const glm::vec3 velocity =
+            o < model.body_count() ? glm::vec3(0.0f) : model.surfaces[o - model.body_count()].velocity;
         objects.resize(objects.size() + model.objects[o].nodes.count, {velocity, static_cast<float>(o)});
     }
     return objects;
@@ -42,13 +42,30 @@ std::vector<BodyEnergy> unknown_energies(std::uint32_t count) {
     return energies;
 }
 
+std::vector<float> restitutions_of(const ContactSurface* contacts) {
+    if (contacts == nullptr) return {0.0f};
+    std::vector<float> restitutions;
+    for (const ContactSurface::Touch& touch : contacts->touches)
+        restitutions.push_back(static_cast<float>(touch.restitution));
+    return restitutions;
+}
+
+bool bounces(const ContactSurface* contacts) {
+    const std::vector<float> all = restitutions_of(contacts);
+    return std::any_of(all.begin(), all.end(), [](float restitution) { return restitution > 0.0f; });
+}
+
+gl::Defines defines_of_settle(const ContactSurface* contacts) {
+    return bounces(contacts) ? gl::Defines{"PAIRS"} : gl::Defines{};
+}
+
 gl::Buffer<double> zeros(std::size_t count) {
     return gl::Buffer<double>(std::vector<double>(std::max<std::size_t>(count, 1)));
 }
 
 }  // namespace
 
-PartEnd::Programs::Programs(const Model& model, bool contacts)
+PartEnd::Programs::Programs(const Model& model, const ContactSurface* contacts)
     : sum_motions(gl::Program::compute("sim/implicit/sum_motions.comp")),
       finish(gl::Program::compute("sim/implicit/finish.comp", SumLoads::defines(model))),
       keep(energies_program(model, {"KEEP"})),
@@ -60,22 +77,26 @@ PartEnd::Programs::Programs(const Model& model, bool contacts)
       measure_guarded(energies_program(model, {"GUARDED"})),
       judge_guarded(gl::Program::compute("sim/implicit/judge.comp", {"GUARDED"})),
       stop(energies_program(model, {"STOP"})),
-      settle(gl::Program::compute("sim/implicit/settle.comp")),
+      settle(gl::Program::compute("sim/implicit/settle.comp", defines_of_settle(contacts))),
       commit(gl::Program::compute("sim/implicit/commit.comp")),
       find_energies(energies_program(model, {})),
       begin_energies(gl::Program::compute("sim/implicit/begin_energies.comp")),
-      has_contacts(contacts) {
-    if (!contacts) return;
+      has_contacts(contacts != nullptr),
+      has_restitution(bounces(contacts)) {
+    if (!has_contacts) return;
     tie_bodies = gl::Program::compute("sim/implicit/tie_bodies.comp");
     sum_guarded = gl::Program::compute("sim/implicit/sum_guarded.comp");
+    if (!has_restitution) return;
+    press_pairs = gl::Program::compute("sim/implicit/press_pairs.comp");
+    meet_pairs = gl::Program::compute("sim/implicit/meet_pairs.comp");
 }
 
 std::vector<const gl::Program*> PartEnd::Programs::all() const {
-    std::vector<const gl::Program*> all = {
-        &sum_motions, &finish,          &keep,          &sum_velocities, &measure, &sum_chunks, &judge,
-        &guard,       &measure_guarded, &judge_guarded, &stop,           &settle,  &commit,     &find_energies,
-        &begin_energies};
+    std::vector<const gl::Program*> all = {&sum_motions, &finish, &keep,   &sum_velocities,  &measure,
+                                           &sum_chunks,  &judge,  &guard,  &measure_guarded, &judge_guarded,
+                                           &stop,        &settle, &commit, &find_energies,   &begin_energies};
     if (has_contacts) all.insert(all.end(), {&tie_bodies, &sum_guarded});
+    if (has_restitution) all.insert(all.end(), {&press_pairs, &meet_pairs});
     return all;
 }
 
@@ -86,11 +107,18 @@ PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system, const
       object_count_(system.buffers().object_count),
       has_colliders_(!model.colliders.empty()),
       masses_(model.masses),
-      programs_(model, contacts != nullptr),
+      programs_(model, contacts),
       springs_(model.springs, gl::TexelFormat::rgba32ui),
       elements_(elements_of(model), gl::TexelFormat::rgba32ui),
       node_objects_(objects_by_node(model), gl::TexelFormat::rgba32f),
+      kinds_(contacts != nullptr ? contacts->kinds : std::vector<std::uint32_t>(1), gl::TexelFormat::r32ui),
+      restitutions_(restitutions_of(contacts), gl::TexelFormat::r32f),
+      kind_count_(contacts != nullptr ? contacts->kind_count : 1),
+      meeting_capacity_(programs_.has_restitution ? static_cast<std::uint32_t>(system.capacity().pairs) : 0),
       rigid_velocities_(object_count_, gl::TexelFormat::rgba32f),
+      pair_dispatch_(std::vector<Dispatch>{{0, 1, 1, 0}}),
+      presses_(zeros(end_sums::kPairSums * meeting_capacity_)),
+      pair_meetings_(zeros(1 + 2 * end_sums::kPairMeeting * meeting_capacity_)),
       finish_sums_(zeros(end_sums::kFinishSums * chunk_count_)),
       energy_sums_(zeros(end_sums::kEnergySums * chunk_count_)),
       part_sums_(zeros(end_sums::kPartSums * chunk_count_)),
@@ -127,6 +155,7 @@ void PartEnd::bind_buffers(const Model& model) const {
         bind("RigidVelocities", rigid_velocities_.values);
         bind("rigid_velocities", rigid_velocities_.texels);
         bind("node_objects", node_objects_);
+        bind_contacts(*program);
         bind("BodyEnergies", energies_);
         bind("BodyChanges", changes_);
         bind("springs", springs_);
@@ -142,6 +171,19 @@ void PartEnd::bind_buffers(const Model& model) const {
         system_->elastic.bind_tets(*program);
     p.measure.bind("ElasticForces", system_->elastic.forces());
     system_->elastic.bind_product(p.measure, system_->buffers().displacements.texels);
+}
+
+void PartEnd::bind_contacts(const gl::Program& program) const {
+    const auto bind = [&](const char* name, const auto& buffer) {
+        if (program.declares(name)) program.bind(name, buffer);
+    };
+    bind("kinds", kinds_);
+    bind("restitutions", restitutions_);
+    bind("Dispatches", pair_dispatch_);
+    bind("PairPresses", presses_);
+    bind("PairMeetings", pair_meetings_);
+    program.set("kind_count", kind_count_);
+    program.set("meeting_capacity", meeting_capacity_);
 }
 
 void PartEnd::bind_nodes() const {
@@ -163,6 +205,10 @@ void PartEnd::bind_nodes() const {
     if (p.has_contacts) {
         p.sum_guarded.bind("positions", from.position_texels);
         p.sum_guarded.bind("end_positions", to.position_texels);
+    }
+    if (p.has_restitution) {
+        p.press_pairs.bind("positions", from.position_texels);
+        p.press_pairs.bind("velocities", to.velocity_texels);
     }
     p.commit.bind("Positions", from.positions);
     p.commit.bind("Velocities", from.velocities);
@@ -229,6 +275,12 @@ void PartEnd::end_guarded(const ModelBuffers& model) const {
 
 void PartEnd::end_part(const ModelBuffers& model) const {
     programs_.settle.bind("colliders", model.colliders);
+    if (programs_.has_restitution) {
+        gl::barrier(gl::Barrier::command);
+        programs_.press_pairs.dispatch_indirect(pair_dispatch_.id(), 0);
+        gl::barrier(gl::Barrier::storage);
+        run(programs_.meet_pairs, 1);
+    }
     run(programs_.settle, 1);
     run(programs_.commit, chunk_count_);
 }
@@ -241,6 +293,7 @@ void PartEnd::forget() {
     state_->paces.values.upload(std::vector<BodyPace>(object_count_));
     energies_.upload(unknown_energies(object_count_));
     meetings_.upload(std::vector<double>(meetings_.size()));
+    pair_meetings_.upload(std::vector<double>(pair_meetings_.size()));
 }
 
 PartEnd::Memory PartEnd::empty_memory() const {
@@ -249,7 +302,8 @@ PartEnd::Memory PartEnd::empty_memory() const {
             std::vector<glm::vec4>(state_->accelerations.values.size()),
             std::vector<PlaneMemory>(state_->plane_memories.size()),
             std::vector<BodyEnergy>(energies_.size()),
-            std::vector<double>(meetings_.size())};
+            std::vector<double>(meetings_.size()),
+            std::vector<double>(pair_meetings_.size())};
 }
 
 PartEnd::Memory PartEnd::memory() const {
@@ -260,6 +314,7 @@ PartEnd::Memory PartEnd::memory() const {
     state_->plane_memories.download(memory.planes);
     energies_.download(memory.energies);
     meetings_.download(memory.meetings);
+    pair_meetings_.download(memory.pair_meetings);
     return memory;
 }
 
@@ -270,6 +325,7 @@ void PartEnd::set_memory(const Memory& memory) {
     state_->plane_memories.upload(memory.planes);
     energies_.upload(memory.energies);
     meetings_.upload(memory.meetings);
+    pair_meetings_.upload(memory.pair_meetings);
 }
 
 // Accelerations are Euler's.

@@ -18,8 +18,8 @@ namespace gelatin::gpu {
 
 /// The end of a try to make a part of an implicit step, after its system is solved: where nodes are then, and
 /// how fast; whether they have gained energy, and so whether the part is made, or has to be made again, which
-/// the next try does; colliders, what is owed, and impacts. Bodies that touch each other are an island, by the
-/// tables of the system's rows. All decisions are made on the device (StepClock). CPU twins:
+/// the next try does; colliders, what is owed, and impacts. Bodies that touch each other are an island, by
+/// the tables of the system's rows. All decisions are made on the device (StepClock). CPU twins:
 /// cpu::ImplicitStep::run, EnergyAccount, Paces, Guard, Restitution, TimeScheme.
 ///
 /// A guard of pairs of surfaces goes between finish() and settle(); with colliders alone run() does it all.
@@ -63,7 +63,7 @@ public:
         std::vector<glm::vec4> accelerations;
         std::vector<PlaneMemory> planes;
         std::vector<BodyEnergy> energies;
-        std::vector<double> meetings;
+        std::vector<double> meetings, pair_meetings;
     };
     Memory memory() const;
     /// Of the right sizes.
@@ -71,20 +71,24 @@ public:
     /// @pre of these sizes, and barrier(buffer_update) since the last dispatch
     void set_memory(const Memory& memory);
 
-    /// By object; and by collider and object, end_sums::kMeeting each.
+    /// By object; by collider and object, end_sums::kMeeting each; and how many of two objects there are,
+    /// with end_sums::kPairMeeting each.
     const gl::Buffer<BodyEnergy>& energies() const { return energies_; }
     const gl::Buffer<double>& meetings() const { return meetings_; }
+    const gl::Buffer<double>& pair_meetings() const { return pair_meetings_; }
 
 private:
     struct Programs {
-        Programs(const Model& model, bool contacts);
+        Programs(const Model& model, const ContactSurface* contacts);
         std::vector<const gl::Program*> all() const;
         gl::Program sum_motions, finish, keep, sum_velocities, measure, sum_chunks, judge, guard,
             measure_guarded, judge_guarded, stop, settle, commit, find_energies, begin_energies;
-        bool has_contacts;
+        bool has_contacts, has_restitution;   // of objects with each other
         gl::Program tie_bodies, sum_guarded;  // with contacts
+        gl::Program press_pairs, meet_pairs;  // with restitution
     };
     void bind_buffers(const Model& model) const;
+    void bind_contacts(const gl::Program& program) const;
     void bind_nodes() const;
     void run(const gl::Program& program, std::uint32_t groups) const;
     void end_guarded(const ModelBuffers& model) const;
@@ -100,7 +104,12 @@ private:
     gl::TexelTable<Spring> springs_;
     gl::TexelTable<glm::uvec4> elements_;
     gl::TexelTable<glm::vec4> node_objects_;
-    StepBuffer<BodyMotion> rigid_velocities_;  // by object
+    gl::TexelTable<std::uint32_t> kinds_;  // of objects, and restitutions of two kinds
+    gl::TexelTable<float> restitutions_;
+    std::uint32_t kind_count_, meeting_capacity_;
+    StepBuffer<BodyMotion> rigid_velocities_;     // by object
+    gl::Buffer<Dispatch> pair_dispatch_;          // a work group a pair of the tables
+    gl::Buffer<double> presses_, pair_meetings_;  // by pair of the tables; of objects
     gl::Buffer<double> finish_sums_, energy_sums_, part_sums_, guard_sums_;  // by chunk
     gl::Buffer<double> pressed_sums_, meetings_;                             // by collider
     gl::Buffer<double> object_sums_, island_sums_;                           // by object

@@ -52,7 +52,8 @@ std::vector<cpu::ContactRow<double>> sorted_rows(const EndReference& reference) 
     std::vector<cpu::ContactRow<double>> rows = reference.system.rows;
     const auto key = [&](const cpu::ContactRow<double>& row) {
         const bool is_second = reference.model->is_body(row.other);
-        return std::array{reference.islands.of_bodies[is_second ? row.other : row.object], row.object, row.other};
+        return std::array{reference.islands.of_bodies[is_second ? row.other : row.object], row.object,
+                          row.other};
     };
     std::stable_sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
     return rows;
@@ -105,7 +106,8 @@ public:
             for (const glm::vec4& force : read(loads_->forces())) reference_.loads.emplace_back(force);
         }
         if (at.is_pulled) hold();
-        for (int k = 0; k < at.own_rows; ++k) reference_.own_rows.push_back(own_row(static_cast<std::uint32_t>(k)));
+        for (int k = 0; k < at.own_rows; ++k)
+            reference_.own_rows.push_back(own_row(static_cast<std::uint32_t>(k)));
         system_.iterations = 0;
         clock_.size = clock_.left = static_cast<float>(kStepSize);
         clock_.goes_on = 1;
@@ -249,8 +251,8 @@ private:
             paces[o].is_held = reference_.islands.are_held[island];
             paces[o].velocity.w = static_cast<float>(model_.objects[o].mass);
             was_torn_ = was_torn_ || reference_.scheme.of(o).is_whole;
-            const auto count = std::count(reference_.islands.of_bodies.begin(),
-                                          reference_.islands.of_bodies.end(), island);
+            const auto count =
+                std::count(reference_.islands.of_bodies.begin(), reference_.islands.of_bodies.end(), island);
             largest_island_ = std::max(largest_island_, static_cast<std::uint32_t>(count));
         }
         state_.paces.values.upload(paces);
@@ -413,15 +415,18 @@ private:
             double speed, time, energy, size;
             glm::dvec3 impulse, arm, held, pressing;
         };
-        std::vector<double> actual = read(end_.meetings());
+        std::vector<double> actual = read(end_.meetings()), of_pairs = read(end_.pair_meetings());
+        std::size_t pair_count = 0;
         StateReader reader(reference_.restitution);
         const auto count = reader.take<std::size_t>();
         const std::size_t objects = model_.objects.size();
         for (std::size_t k = 0; k < count; ++k) {
             const auto first = reader.take<std::size_t>(), object = reader.take<std::size_t>();
             const auto meeting = reader.take<Meeting>();
-            if (first < objects) continue;
-            double* const at = &actual[((first - objects) * objects + object) * end_sums::kMeeting];
+            const bool is_pair = first < objects;
+            double* const at = is_pair ? &of_pairs[std::min(1 + end_sums::kPairMeeting * pair_count++,
+                                                            of_pairs.size() - end_sums::kPairMeeting)]
+                                       : &actual[((first - objects) * objects + object) * end_sums::kMeeting];
             const double bound = 1e-3 * (0.1 + meeting.size);
             error_.add(at[end_sums::kMetTime], meeting.time, 1e-7);
             error_.add(at[end_sums::kMetSpeed], meeting.speed, 1e-3);
@@ -431,8 +436,15 @@ private:
                 error_.add(at[end_sums::kMetImpulse + static_cast<unsigned>(i)], meeting.impulse[i], bound);
                 error_.add(at[end_sums::kMetArm + static_cast<unsigned>(i)], meeting.arm[i], bound);
             }
+            if (is_pair) {
+                error_.fail_if(at[end_sums::kMetFirst] != static_cast<double>(first) ||
+                               at[end_sums::kMetSecond] != static_cast<double>(object));
+                for (int i = 0; i < 3; ++i)
+                    error_.add(at[end_sums::kMetHeld + static_cast<unsigned>(i)], meeting.held[i], bound);
+            }
             at[end_sums::kMetTime] = 0.0;
         }
+        error_.fail_if(of_pairs[0] != static_cast<double>(pair_count));
         for (std::size_t m = 0; m < actual.size() / end_sums::kMeeting; ++m)
             error_.fail_if(actual[m * end_sums::kMeeting + end_sums::kMetTime] != 0.0);
     }

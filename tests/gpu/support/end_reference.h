@@ -40,7 +40,7 @@ public:
     std::shared_ptr<const Model> model;
     std::shared_ptr<const ContactSurface> surface;
     cpu::Nodes<double> from, to;
-    std::vector<glm::dvec4> loads;  ///< [N], or none
+    std::vector<glm::dvec4> loads;                  ///< [N], or none
     std::vector<cpu::ContactRow<double>> own_rows;  ///< that are among those of each part
     const cpu::Pulls<double>* pulls = nullptr;
     cpu::StepSystem<double> system;
