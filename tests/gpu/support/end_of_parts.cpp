@@ -211,12 +211,14 @@ private:
         reference_.solve(step, damps);
         for (std::size_t n = 0; n < reference_.system.displacements.size(); ++n) {
             glm::dvec3& d = reference_.system.displacements[n];
+            const bool is_last = n >= model_.objects[model_.body_count() - 1].nodes.first;
             if (reference_.from.positions[n].w > 0.0)
-                d += step * (part.push + random.point(std::max(part.noise, 1e-9)));
+                d += step * (part.push + (is_last ? part.last_push : glm::dvec3(0.0)) +
+                             random.point(std::max(part.noise, 1e-9)));
             d = glm::dvec3(glm::vec3(d));
         }
         if (part.breaks) reference_.system.displacements[3].x = std::numeric_limits<double>::quiet_NaN();
-        rounding_ = 3e-6 * (1.0 + glm::length(part.push)) / step;
+        rounding_ = 3e-6 * (1.0 + glm::length(part.push) + glm::length(part.last_push)) / step;
         begin_on_gpu(step, damps);
         const std::vector<cpu::ContactRow<double>> rows = reference_.system.rows;
         const double shortest = kStepSize / cpu::tuning::kMostParts;
@@ -383,7 +385,8 @@ private:
         const std::vector<glm::vec4> actual = read(state_.accelerations.values);
         double most = 10.0;
         for (const glm::dvec3& a : accelerations) most = std::max(most, glm::length(a));
-        for (std::size_t n = 0; n < accelerations.size(); ++n)
+        for (std::size_t n = 0; n < std::min<std::size_t>(accelerations.size(), model_.body_node_count());
+             ++n)
             error_.add(glm::dvec3(actual[n]), accelerations[n], 2e-3 * most + rounding_);
         const std::vector<BodyPace> paces = read(state_.paces.values);
         const std::vector<BodyEnergy> energies = read(end_.energies());

@@ -17,6 +17,7 @@ struct PartChange {
     double step = kStepSize / 4.0;  ///< [s]
     double noise = 0.0;             ///< of displacements, as a speed [m/s]
     glm::dvec3 push{0.0};           ///< of all nodes, as a speed [m/s]
+    glm::dvec3 last_push{0.0};      ///< of the last body's alone
     bool breaks = false;            ///< a displacement is no number
     bool sets_velocities = false;   ///< before it, from outside
     bool forgets = false;           ///< before it

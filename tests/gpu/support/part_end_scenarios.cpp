@@ -187,12 +187,14 @@ Scenarios island_scenarios() {
                        .island = 2};
     });
     add("an_island_is_guarded_and_stopped", [] {
-        EndCase at{.model = meeting_blocks({.youngs_modulus = 300.0}, {.youngs_modulus = 300.0}),
-                   .parts = parts(5),
+        EndCase at{.model = meeting_blocks(),
+                   .parts = parts(4),
                    .is_struck = true,
                    .is_guarded = true,
+                   .contacts = true,
                    .island = 2};
-        at.parts[2].noise = 3.0;
+        at.parts[0].step = 1e-4;
+        at.parts[0].last_push = {10.0, -100.0, 0.0};
         return at;
     });
     return scenarios;
