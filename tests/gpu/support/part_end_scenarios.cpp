@@ -82,18 +82,28 @@ std::shared_ptr<const Model> meeting_blocks(const Block& upper = {}, const Block
 }
 
 // Two lie side by side on a third, whose lowest nodes are held and move; one more is beside them.
-std::shared_ptr<const Model> held_pile() {
-    const Block held{
-        .cells = {4, 2, 2}, .size = {0.7, 0.2, 0.3}, .pins = {HalfSpaceRegion{{0.0, 1.0, 0.0}, 0.01}}};
-    Model model =
-        *make_blocks({held,
-                      {.place = {0.01, 0.203, 0.01}, .velocity = {0.1, -0.5, 0.0}, .cells = {2, 2, 2}},
-                      {.place = {2.0, 0.0, 0.0}, .velocity = {0.0, 1.0, 0.0}, .cells = {2, 2, 2}},
-                      {.place = {0.36, 0.202, 0.0}, .velocity = {-0.1, -0.8, 0.1}, .cells = {2, 2, 2}}},
-                     {0.0, -10.0, 0.0});
+std::shared_ptr<const Model> held_pile(double youngs_modulus = 1e5) {
+    std::vector<Block> blocks{
+        {.cells = {4, 2, 2}, .size = {0.7, 0.2, 0.3}, .pins = {HalfSpaceRegion{{0.0, 1.0, 0.0}, 0.01}}},
+        {.place = {0.01, 0.203, 0.01}, .velocity = {0.1, -0.5, 0.0}, .cells = {2, 2, 2}},
+        {.place = {2.0, 0.0, 0.0}, .velocity = {0.0, 1.0, 0.0}, .cells = {2, 2, 2}},
+        {.place = {0.36, 0.202, 0.0}, .velocity = {-0.1, -0.8, 0.1}, .cells = {2, 2, 2}}};
+    for (Block& block : blocks) block.youngs_modulus = youngs_modulus;
+    Model model = *make_blocks(blocks, {0.0, -10.0, 0.0});
     for (std::size_t n = 0; n < model.velocities.size(); ++n)
         if (model.positions[n].w == 0.0f) model.velocities[n] = glm::vec4(0.3f, 0.5f, -0.2f, 0.0f);
     return std::make_shared<const Model>(std::move(model));
+}
+
+// Pairs that meet one after the other.
+std::shared_ptr<const Model> several_stiff_blocks() {
+    const auto block = [](const glm::dvec3& place, const glm::dvec3& velocity) {
+        return Block{.place = place, .velocity = velocity, .cells = {2, 2, 2}, .youngs_modulus = 1e8};
+    };
+    return make_blocks({block({0, 0, 0}, {0, 1.0, 0}), block({2, 0, 0}, {0, 0.5, 0.1}),
+                        block({2.02, 0.303, 0.02}, {0.1, -1.0, 0}),
+                        block({0.02, 0.31, 0.01}, {0.1, -1.0, 0.2}), block({0, 0.62, 0.01}, {0, -2.0, 0})},
+                       {0, -10, 0});
 }
 
 // A block on a box that moves, or whose surface does.
@@ -179,6 +189,14 @@ Scenarios island_scenarios() {
                 .is_struck = true,
                 .island = 2};
         });
+    add("several_bounce", [] {
+        return EndCase{.model = several_stiff_blocks(),
+                       .parts = parts(14),
+                       .restitution = 0.5,
+                       .is_struck = true,
+                       .contacts = true,
+                       .island = 3};
+    });
     add("bounces_off_a_surface_that_moves", [] {
         return EndCase{.model = on_a_surface({0.2f, 0.4f, 0.1f}, {}, 1e8),
                        .parts = parts(14),
@@ -285,14 +303,15 @@ Scenarios part_end_scenarios() {
 
 bool ends_repeat() {
     const EndCase at{two_blocks({.place = {0, 0.005, 0}, .velocity = {0.5, -1.0, 0.2}}), parts(2)};
-    const EndCase island{.model = meeting_blocks(), .parts = parts(3), .contacts = true};
+    const EndCase island{
+        .model = several_stiff_blocks(), .parts = parts(6), .restitution = 0.5, .contacts = true};
     return velocities_after(at) == velocities_after(at) &&
            velocities_after(island) == velocities_after(island);
 }
 
 void run_end_programs() {
     use_programs({two_blocks({.place = {0, 0.005, 0}, .velocity = {0.5, -1.0, 0.2}}), {}});
-    use_programs({.model = meeting_blocks(), .parts = {}, .contacts = true});
+    use_programs({.model = meeting_blocks(), .parts = {}, .restitution = 0.5, .contacts = true});
 }
 
 }  // namespace gelatin::test
