@@ -100,8 +100,8 @@ std::shared_ptr<const Model> several_stiff_blocks() {
     const auto block = [](const glm::dvec3& place, const glm::dvec3& velocity) {
         return Block{.place = place, .velocity = velocity, .cells = {2, 2, 2}, .youngs_modulus = 1e8};
     };
-    return make_blocks({block({0, 0, 0}, {0, 1.0, 0}), block({2, 0, 0}, {0, 0.5, 0.1}),
-                        block({2.02, 0.303, 0.02}, {0.1, -1.0, 0}),
+    return make_blocks({block({0, 0, 0}, {0, 1.0, 0}), block({0.5, 0, 0}, {0, 0.5, 0.1}),
+                        block({0.52, 0.303, 0.02}, {0.1, -1.0, 0}),
                         block({0.02, 0.31, 0.01}, {0.1, -1.0, 0.2}), block({0, 0.62, 0.01}, {0, -2.0, 0})},
                        {0, -10, 0});
 }
