@@ -38,8 +38,17 @@ const uint kStartArm = 13u;
 const uint kStartKinetic = 16u;
 const uint kStartPotential = 17u;
 const uint kPartSums = 18u;
-// Of a body, over its chunks: both.
-const uint kObjectSums = 40u;
+// Of a body, over its chunks: both; then what it vibrates with [J].
+const uint kVibrations = 40u;
+const uint kObjectSums = 41u;
+// Of an island, at its first body: what it owes, and of that more than the slack [J]; what it vibrates with [J]; its mass [kg]; what
+// it has gained beyond vibrations, as a part of its energy then.
+const uint kIslandOwed = 0u;
+const uint kIslandDues = 1u;
+const uint kIslandVibrations = 2u;
+const uint kIslandMass = 3u;
+const uint kIslandGain = 4u;
+const uint kIslandSums = 5u;
 // Of what presses a body on a collider with restitution: force, force n, its moment, force times the arm.
 const uint kPressed = 0u;
 const uint kPressedForce = 1u;
@@ -61,3 +70,23 @@ const uint kMetSize = 3u;
 const uint kMetImpulse = 4u;
 const uint kMetArm = 7u;
 const uint kMeeting = 10u;
+// Of an impact of two objects, the same of what presses the second, with arms from the centre of a body of the two that is free, the
+// second if both are; then the velocity of what is not free, times the sizes; both objects; and 1 + the number of the pair in the
+// tables by which they press each other now, 0: none.
+const uint kMetHeld = 10u;
+const uint kMetFirst = 13u;
+const uint kMetSecond = 14u;
+const uint kMetPress = 15u;
+const uint kPairMeeting = 16u;
+// Of what presses two objects in a part: both; force; on the second force n; its moment about the centres of the second and of the
+// first; force times the arm; force times the velocity of what is not free; and by how much that takes them apart.
+const uint kPairFirst = 0u;
+const uint kPairSecond = 1u;
+const uint kPairForce = 2u;
+const uint kPairPushed = 3u;
+const uint kPairMoment = 6u;
+const uint kPairOpposite = 9u;
+const uint kPairArm = 12u;
+const uint kPairHeld = 15u;
+const uint kPairApart = 18u;
+const uint kPairSums = 19u;

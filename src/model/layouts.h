@@ -43,7 +43,7 @@ static_assert(sizeof(Alarm) == 16);
 static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(BodyChange) == 64);
-static_assert(sizeof(BodyEnergy) == 24);
+static_assert(sizeof(BodyEnergy) == 40);
 static_assert(sizeof(BodyInverse) == 144);
 static_assert(sizeof(BodyMotion) == 32);
 static_assert(sizeof(BodyPace) == 80);

@@ -104,10 +104,12 @@ TEST_F(LayoutsTest, StepSystem) {
 
 TEST_F(LayoutsTest, StepEnds) {
     check("step_end.glsl", "BodyEnergy", sizeof(BodyEnergy),
-          {FIELD(BodyEnergy, elastic), FIELD(BodyEnergy, contacts), FIELD(BodyEnergy, debt)});
+          {FIELD(BodyEnergy, elastic), FIELD(BodyEnergy, contacts), FIELD(BodyEnergy, debt),
+           FIELD(BodyEnergy, tied), FIELD(BodyEnergy, next_tied), FIELD(BodyEnergy, is_whole),
+           FIELD(BodyEnergy, schemes)});
     check("step_end.glsl", "BodyChange", sizeof(BodyChange),
           {FIELD(BodyChange, center), FIELD(BodyChange, velocity), FIELD(BodyChange, spin),
-           FIELD(BodyChange, action), FIELD(BodyChange, unused_0), FIELD(BodyChange, unused_1),
+           FIELD(BodyChange, action), FIELD(BodyChange, is_struck), FIELD(BodyChange, unused_1),
            FIELD(BodyChange, unused_2)});
 }
 

@@ -41,6 +41,7 @@ vec4 velocity_at(uint n) { return texelFetch(velocities, int(n)); }
 
 #ifdef KEEP
 layout(std430) readonly buffer Paces { BodyPace paces[]; };
+layout(std430) readonly buffer BodyEnergies { BodyEnergy energies[]; };
 layout(std430) readonly buffer FinishSums { double finish_sums[]; };
 shared double body_sums[kFinishSums];
 RigidPart missing;
@@ -62,7 +63,7 @@ void prepare(uint object) {
     for (uint k = 0u; k < kMotionSums; ++k) motion[k] = body_sums[k];
     missing = rigid_part_of(motion);
     BodyPace pace = paces[object];
-    Scheme s = scheme_of(clock[0].step, pace.past);
+    Scheme s = scheme_of(clock[0].step, energies[object].is_whole != 0u ? 0.0 : pace.past);
     dvec3 has = of_body(kMomentum), turns = of_body(kAngular) - cross(missing.center, has);
     dvec3 force = of_body(kForce), moment = of_body(kMoment) - cross(missing.center, force);
     force += dvec3(gravity) * motion[kMass];

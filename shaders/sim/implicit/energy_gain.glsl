@@ -1,83 +1,64 @@
-// What bodies have gained by a part beyond what drives them, and their vibrations, for one work group of kLanes.
+// What a body has gained by a part beyond what drives it, and what its island has. To be included after sim/implicit/object_sums.glsl.
 // CPU twin: gelatin::cpu::EnergyAccount::measure.
-#include "include/global_index.glsl"
 #include "layouts/contact_tuning.glsl"
 #include "layouts/step_end.glsl"
 #include "layouts/step_state.glsl"
-#include "layouts/end_sums.glsl"
-#include "sim/implicit/rigid_part.glsl"
 
-uniform usamplerBuffer chunk_starts;  // of each object, and the end
-uniform uint object_count;
-layout(std430) readonly buffer ObjectSums { double object_sums[]; };
+// Sums over the bodies of an island: masses; what they owe and have gained; what is too small to count; kinetic and elastic energy
+// before; momenta where the part ends and where it began; vibrations.
+const uint kMasses = 0u, kOwed = 1u, kGained = 2u, kSlack = 3u, kMotionsBefore = 4u, kMomenta = 5u, kMomentaBefore = 8u,
+           kVibrating = 11u, kGainSums = 12u;
 
-uint first_chunk(uint o) { return texelFetch(chunk_starts, int(o)).x; }
-
-double energy_sum(uint o, uint k) { return object_sums[o * kObjectSums + k]; }
-double part_sum(uint o, uint k) { return object_sums[o * kObjectSums + kEnergySums + k]; }
-
-void find_motion(uint o, out double motion[kMotionSums]) {
-    for (uint k = 0u; k < kMotionSums; ++k) motion[k] = energy_sum(o, k);
+// What a body moves with beside its motion as a rigid one [J].
+double vibrations_of(uint o, bool is_free) {
+    double kinetic = energy_sum(o, kKinetic), motion[kMotionSums];
+    if (!is_free) return kinetic;
+    find_motion(o, motion);
+    RigidPart rigid = rigid_part_of(motion);
+    dvec3 momentum = triple(motion, kMomentum), turns = triple(motion, kAngular) - cross(rigid.center, momentum);
+    return max(kinetic - 0.5LF * (dot(rigid.velocity, momentum) + dot(rigid.spin, turns)), 0.0LF);
 }
 
-dvec3 part_sums_of(uint o, uint k) { return dvec3(part_sum(o, k), part_sum(o, k + 1u), part_sum(o, k + 2u)); }
+void add_gain(uint o, BodyPace pace, BodyEnergy before, inout double sums[kGainSums]) {
+    double motions = energy_sum(o, kElastic) + energy_sum(o, kKinetic), potential = energy_sum(o, kPotential);
+    double motions_before = before.elastic + part_sum(o, kStartKinetic);
+    double gained = motions + part_sum(o, kContactsAtEnd) - motions_before - part_sum(o, kWork);
+    if (pace.is_held != 0u) gained += potential - part_sum(o, kStartPotential);
+    sums[kMasses] += double(pace.velocity.w);
+    sums[kOwed] += before.debt + gained - before.contacts;
+    sums[kGained] += gained - part_sum(o, kContactsAtStart);
+    sums[kSlack] += double(kLeastEnergy) + double(kEnergyRounding) * (motions + abs(potential));
+    sums[kMotionsBefore] += motions_before;
+    for (uint k = 0u; k < 3u; ++k) {
+        sums[kMomenta + k] += energy_sum(o, kMomentum + k);
+        sums[kMomentaBefore + k] += part_sum(o, kStartMomentum + k);
+    }
+    sums[kVibrating] += object_sums[o * kObjectSums + kVibrations];
+}
 
-struct BodyGain {
-    BodyEnergy after;   // where the part ends
-    double before_all, after_all;  // kinetic, elastic and potential energy where it began and ends [J]
-    double owed, dues;  // of what is owed more than the slack [J]
-    double vibrations;  // [J]
-    float gained;       // beyond vibrations, as a part of the energy then; infinite where something is not finite
-};
-
-// @param motion of energy_sums
-BodyGain gain_of(uint o, BodyPace pace, BodyEnergy before, double motion[kMotionSums], bool is_free) {
-    BodyGain gain;
-    gain.after = BodyEnergy(energy_sum(o, kElastic), part_sum(o, kContactsAtEnd), before.debt);
-    double kinetic = energy_sum(o, kKinetic), potential = energy_sum(o, kPotential);
-    double potential_before = part_sum(o, kStartPotential);
-    double motions = before.elastic + part_sum(o, kStartKinetic), moves = gain.after.elastic + kinetic;
-    gain.before_all = motions + potential_before;
-    gain.after_all = moves + potential;
-    double slack = double(kLeastEnergy) + double(kEnergyRounding) * (moves + abs(potential));
-    double gained = moves + gain.after.contacts - motions - part_sum(o, kWork);
-    dvec3 momentum = triple(motion, kMomentum);
-    if (pace.is_held != 0u) {
-        gained += potential - potential_before;
-    } else {
+// @return kIslandSums
+double[kIslandSums] gain_of(double sums[kGainSums], bool is_held) {
+    double owed = sums[kOwed], gained = sums[kGained], motions = sums[kMotionsBefore], vibrations = sums[kVibrating];
+    if (!is_held) {
         // What nothing holds moves on as a whole, and falls, as it does.
-        dvec3 momentum_before = part_sums_of(o, kStartMomentum);
-        double twice = 2.0LF * double(pace.velocity.w), whole = dot(momentum_before, momentum_before) / twice;
-        gained -= dot(momentum, momentum) / twice - whole;
+        dvec3 now = dvec3(sums[kMomenta], sums[kMomenta + 1u], sums[kMomenta + 2u]);
+        dvec3 before = dvec3(sums[kMomentaBefore], sums[kMomentaBefore + 1u], sums[kMomentaBefore + 2u]);
+        double twice = 2.0LF * sums[kMasses], whole = dot(before, before) / twice;
+        double more = dot(now, now) / twice - whole;
+        owed -= more;
+        gained -= more;
         motions = max(motions - whole, 0.0LF);
     }
-    slack += double(kSlackOfEnergy) * motions;
-    gain.owed = before.debt + gained - before.contacts;
-    gain.dues = max(gain.owed - slack, 0.0LF);
-    gain.vibrations = kinetic;
-    if (is_free) {
-        RigidPart rigid = rigid_part_of(motion);
-        dvec3 turns = triple(motion, kAngular) - cross(rigid.center, momentum);
-        gain.vibrations = max(kinetic - 0.5LF * (dot(rigid.velocity, momentum) + dot(rigid.spin, turns)), 0.0LF);
-    }
-    double beyond = max(gained - part_sum(o, kContactsAtStart) - slack, 0.0LF) - gain.vibrations;
+    double slack = sums[kSlack] + double(kSlackOfEnergy) * motions;
+    double beyond = max(gained - slack, 0.0LF) - vibrations;
+    double island[kIslandSums];
+    island[kIslandOwed] = owed;
+    island[kIslandDues] = max(owed - slack, 0.0LF);
+    island[kIslandVibrations] = vibrations;
+    island[kIslandMass] = sums[kMasses];
+    island[kIslandGain] = beyond > 0.0LF ? beyond / (beyond + motions) : 0.0LF;
     // Of a maximum with what is no number either may come out.
-    double all = gained + slack + gain.vibrations;
-    if (isnan(all) || isinf(all)) gain.gained = uintBitsToFloat(0x7F800000u);
-    else gain.gained = beyond > 0.0LF ? float(beyond / (beyond + motions)) : 0.0;
-    return gain;
-}
-
-shared float lane_gains[kLanes];
-
-// Of all invocations the most.
-float most_gained(float own) {
-    uint lane = gl_LocalInvocationID.x;
-    lane_gains[lane] = own;
-    for (uint half_ = kLanes / 2u; half_ > 0u; half_ /= 2u) {
-        barrier();
-        if (lane < half_) lane_gains[lane] = max(lane_gains[lane], lane_gains[lane + half_]);
-    }
-    barrier();
-    return lane_gains[0];
+    double all = gained + slack + vibrations;
+    if (isnan(all) || isinf(all)) island[kIslandGain] = double(uintBitsToFloat(0x7F800000u));
+    return island;
 }

@@ -6,6 +6,7 @@ const uint kSums = 36u;  // kFinishSums
 #include "sim/drive/pull.glsl"
 #include "sim/implicit/lane_sums.glsl"
 #include "sim/implicit/rows.glsl"
+#include "sim/implicit/row_sides.glsl"
 #include "sim/implicit/clock.glsl"
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/body_sums.glsl"
@@ -52,7 +53,7 @@ vec3 by_true_rotation(BodyMotion motion, vec3 r, vec3 d) {
     return lack * turned + across * cross(w, turned) + (1.0 + lack) * cross(w, rest) + across * cross(w, cross(w, rest));
 }
 
-// Of contacts with planes; count_rows.comp has noted where there are none.
+// Of a contact with a plane; count_rows.comp has noted where there are none.
 void note(uint n, StepRow row, vec3 s) {
     float limit = row.friction * pressing(row, s);
     vec3 hold = limit > 0.0 ? held_at(row, s, limit) : vec3(0.0);
@@ -72,7 +73,7 @@ vec3 force_on(uint n, vec3 x, vec3 d) {
         StepRow row = rows[entry / 4u];
         vec4 slip = texelFetch(slips, int(entry / 4u));
         force += row.weights[entry % 4u] * force_at(row, slip.xyz, slip.w);
-        note(n, row, slip.xyz);
+        if (has_plane(row)) note(n, row, slip.xyz);
     }
     return force;
 }

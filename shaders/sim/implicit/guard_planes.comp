@@ -6,13 +6,13 @@ const uint kSums = 8u;  // kGuardSums
 #include "sim/implicit/lane_sums.glsl"
 #include "sim/implicit/rows.glsl"
 #include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/guard_sums.glsl"
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer displacements;  // d, xyz [m]
 uniform samplerBuffer thicknesses;    // of objects [m]
 layout(std430) readonly buffer FinishSums { double finish_sums[]; };  // by chunk
 layout(std430) buffer EndPositions { vec4 end_positions[]; };
-layout(std430) writeonly buffer GuardSums { double guard_sums[]; };   // by chunk
 
 shared double body_sums[4];  // mass, mass times displacement
 
@@ -84,16 +84,7 @@ void main() {
         if (placed.w == 0.0) continue;
         end.xyz = from + frame + placed.xyz;
         end_positions[n] = end;
-        dvec3 change = dvec3((end.xyz - wanted) / clock[0].step) / double(end.w);
-        dvec3 moment = cross(dvec3(end.xyz) - dvec3(center), change);
-        sums[kHeldBack] += 1.0LF;
-        if (end.xyz != wanted) sums[kStopped] += 1.0LF;
-        for (int k = 0; k < 3; ++k) {
-            sums[kChange + uint(k)] += change[k];
-            sums[kChangeMoment + uint(k)] += moment[k];
-        }
+        add_held_back(wanted, end, center, sums);
     }
-    for (uint k = 0u; k < kGuardSums; ++k) put_sum(k, sums[k]);
-    barrier();
-    if (lane < kGuardSums) guard_sums[c * kGuardSums + lane] = sum_of_lanes(lane);
+    put_guard_sums(c, sums);
 }

@@ -1,10 +1,11 @@
 // Impacts of a body on colliders with restitution. Bodies bounce by their elasticity, of which parts leave little where bodies are
 // stiff: those that end an impact more slowly than with the restitution times the speed at which they met get that speed, as rigid
-// bodies. To be included after sim/implicit/energy_gain.glsl.
+// bodies. To be included after sim/implicit/object_sums.glsl and solve_system.glsl.
 // CPU twin: gelatin::cpu::Restitution.
+#include "layouts/contact_tuning.glsl"
+
 uniform samplerBuffer colliders;  // Collider, four texels each
 uniform uint collider_count;
-uniform uint chunk_count;
 uniform float resting_speed;      // what meets more slowly stays [m/s]
 layout(std430) readonly buffer PressedSums { double pressed_sums[]; };  // by collider and chunk
 layout(std430) buffer Meetings { double meetings[]; };                  // by collider and object
@@ -22,7 +23,8 @@ struct Impacting {
 
 double pressed_sum(uint p, uint o, uint k) {
     double sum = 0.0LF;
-    for (uint c = first_chunk(o); c < first_chunk(o + 1u); ++c) sum += pressed_sums[(p * chunk_count + c) * kPressedSums + k];
+    uint end = texelFetch(chunk_starts, int(o) + 1).x;
+    for (uint c = texelFetch(chunk_starts, int(o)).x; c < end; ++c) sum += pressed_sums[(p * chunk_count + c) * kPressedSums + k];
     return sum;
 }
 dvec3 pressed_triple(uint p, uint o, uint k) {

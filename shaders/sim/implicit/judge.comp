@@ -2,13 +2,16 @@
 // And how bodies move beside what they touch. GUARDED: again, where the guard has moved nodes; if it has, these are stopped.
 // CPU twins: gelatin::cpu::ImplicitStep::run, EnergyAccount::measure, Paces::find. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kLanes = 128u;
-#include "sim/implicit/energy_gain.glsl"
+#include "layouts/step_end.glsl"
+#include "layouts/step_state.glsl"
+#include "sim/implicit/most_gained.glsl"
+#include "sim/implicit/object_sums.glsl"
+#include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/island_bodies.glsl"
 layout(local_size_x = 128) in;
 
-uniform samplerBuffer bodies;  // StepBody, five texels each
 layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) buffer Paces { BodyPace paces[]; };
-layout(std430) readonly buffer BodyEnergies { BodyEnergy energies[]; };
 
 #ifdef GUARDED
 layout(std430) readonly buffer GuardSums { double guard_sums[]; };  // by chunk
@@ -16,25 +19,35 @@ layout(std430) writeonly buffer BodyChanges { BodyChange changes[]; };
 
 double guard_sum(uint o, uint k) {
     double sum = 0.0LF;
-    for (uint c = first_chunk(o); c < first_chunk(o + 1u); ++c) sum += guard_sums[c * kGuardSums + k];
+    uint end = texelFetch(chunk_starts, int(o) + 1).x;
+    for (uint c = texelFetch(chunk_starts, int(o)).x; c < end; ++c) sum += guard_sums[c * kGuardSums + k];
     return sum;
 }
 
-// A body that nothing holds keeps its momentum and angular momentum.
-BodyChange stop(uint o, double motion[kMotionSums]) {
+// An island that nothing holds keeps its momentum and angular momentum.
+void stop(IslandBodies island) {
+    uint first = first_body(island);
+    vec3 origin = center_of(first);
     BodyChange change = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), 0u, 0u, 0u, 0u);
-    if (!(guard_sum(o, kStopped) > 0.0LF)) return change;
-    change.action = 3u;
-    if (paces[o].is_held != 0u) return change;
-    for (uint k = 0u; k < 3u; ++k) {
-        motion[kMomentum + k] = guard_sum(o, kChange + k);
-        motion[kAngular + k] = guard_sum(o, kChangeMoment + k);
+    double motion[kMotionSums], own[kMotionSums];
+    for (uint k = 0u; k < kMotionSums; ++k) motion[k] = 0.0LF;
+    for (uint at = island.first; at < island.end; ++at) {
+        uint o = body_at(island, at);
+        if (guard_sum(o, kStopped) > 0.0LF) change.action = 3u;
+        find_motion(o, own);
+        for (uint k = 0u; k < 3u; ++k) {
+            own[kMomentum + k] = guard_sum(o, kChange + k);
+            own[kAngular + k] = guard_sum(o, kChangeMoment + k);
+        }
+        add_body(motion, own, dvec3(center_of(o)) - dvec3(origin));
     }
-    RigidPart lost = rigid_part_of(motion);
-    change.center = vec4(vec3(lost.center) + texelFetch(bodies, 5 * int(o)).xyz, 0.0);
-    change.velocity = vec4(-vec3(lost.velocity), 0.0);
-    change.spin = vec4(-vec3(lost.spin), 0.0);
-    return change;
+    if (change.action != 0u && paces[first].is_held == 0u) {
+        RigidPart lost = rigid_part_of(motion);
+        change.center = vec4(vec3(lost.center) + origin, 0.0);
+        change.velocity = vec4(-vec3(lost.velocity), 0.0);
+        change.spin = vec4(-vec3(lost.spin), 0.0);
+    }
+    for (uint at = island.first; at < island.end; ++at) changes[body_at(island, at)] = change;
 }
 #else
 uniform float slow;  // [m/s]
@@ -52,31 +65,22 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     StepClock now = clock[0];
     if (now.goes_on == 0u) return;
-    float gained = 0.0;
 #ifdef GUARDED
     float is_guarded = 0.0;
-    for (uint o = lane; o < object_count; o += kLanes) is_guarded = max(is_guarded, guard_sum(o, kHeldBack) > 0.0LF ? 1.0 : 0.0);
-    is_guarded = most_gained(is_guarded);
+    for (uint o = lane; o < body_count; o += kLanes) is_guarded = max(is_guarded, guard_sum(o, kHeldBack) > 0.0LF ? 1.0 : 0.0);
+    is_guarded = most_of_group(is_guarded);
     barrier();
     if (!(is_guarded > 0.0)) return;
 #endif
-    double motion[kMotionSums];
-    for (uint o = lane; o < object_count; o += kLanes) {
-        bool is_free = texelFetch(bodies, 5 * int(o)).w > 0.0;
-        find_motion(o, motion);
-        gained = max(gained, gain_of(o, paces[o], energies[o], motion, is_free).gained);
-#ifndef GUARDED
-        paces[o].pace = pace_of(o, paces[o].velocity.w);
-#endif
-    }
-    gained = most_gained(gained);
+    float gained = most_gained();
 #ifdef GUARDED
-    for (uint o = lane; o < object_count; o += kLanes) {
-        find_motion(o, motion);
-        if (gained > 0.0) changes[o] = stop(o, motion);
+    for (uint o = lane; o < body_count && gained > 0.0; o += kLanes) {
+        IslandBodies island = bodies_beside(o);
+        if (first_body(island) == o) stop(island);
     }
     if (lane == 0u) clock[0].is_guarded = 1u;
 #else
+    for (uint o = lane; o < body_count; o += kLanes) paces[o].pace = pace_of(o, paces[o].velocity.w);
     if (lane != 0u) return;
     clock[0].is_guarded = 0u;
     clock[0].gained = gained;

@@ -23,7 +23,23 @@ dmat3 inverse_inertia(double mass, dvec3 center, dvec3 squares, dvec3 besides) {
     return (1.0LF / dot(x, first)) * dmat3(first, cross(z, x), cross(x, y));  // symmetric
 }
 
-// @param s of a body of which no node is held
+// Adds sums of a body whose centre is at `arm`.
+void add_body(inout double s[kMotionSums], double own[kMotionSums], dvec3 arm) {
+    dvec3 arms = triple(own, kArm), momentum = triple(own, kMomentum);
+    double mass = own[kMass];
+    dvec3 square = 2.0LF * arms * arm + mass * arm * arm;
+    dvec3 beside = arms.yzx * arm.zxy + arm.yzx * arms.zxy + mass * arm.yzx * arm.zxy;
+    dvec3 moved = mass * arm, angular = cross(arm, momentum);
+    for (uint k = 0u; k < kMotionSums; ++k) s[k] += own[k];
+    for (int k = 0; k < 3; ++k) {
+        s[kArm + uint(k)] += moved[k];
+        s[kSquare + uint(k)] += square[k];
+        s[kBeside + uint(k)] += beside[k];
+        s[kAngular + uint(k)] += angular[k];
+    }
+}
+
+// @param s of what is free
 RigidPart rigid_part_of(double s[kMotionSums]) {
     RigidPart part;
     part.inverse_mass = 1.0LF / s[kMass];

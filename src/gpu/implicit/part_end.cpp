@@ -24,16 +24,52 @@ std::vector<glm::uvec4> elements_of(const Model& model) {
     return elements;
 }
 
+// Velocities of surfaces within themselves [m/s]; w: the object.
+std::vector<glm::vec4> objects_by_node(const Model& model) {
+    std::vector<glm::vec4> objects;
+    for (std::size_t o = 0; o < model.objects.size(); ++o) {
+        const glm::vec3 velocity =
+            o < model.body_count() ? glm::vec3(0.0f) : model.surfaces[o - model.body_count()].velocity;
+        objects.resize(objects.size() + model.objects[o].nodes.count, {velocity, static_cast<float>(o)});
+    }
+    return objects;
+}
+
+// Each body goes on by itself.
+std::vector<BodyEnergy> unknown_energies(std::uint32_t count) {
+    std::vector<BodyEnergy> energies(count);
+    for (std::uint32_t o = 0; o < count; ++o) energies[o].tied = energies[o].next_tied = o;
+    return energies;
+}
+
+std::vector<float> restitutions_of(const ContactSurface* contacts) {
+    if (contacts == nullptr) return {0.0f};
+    std::vector<float> restitutions;
+    for (const ContactSurface::Touch& touch : contacts->touches)
+        restitutions.push_back(static_cast<float>(touch.restitution));
+    return restitutions;
+}
+
+bool bounces(const ContactSurface* contacts) {
+    const std::vector<float> all = restitutions_of(contacts);
+    return std::any_of(all.begin(), all.end(), [](float restitution) { return restitution > 0.0f; });
+}
+
+gl::Defines defines_of_settle(const ContactSurface* contacts) {
+    return bounces(contacts) ? gl::Defines{"PAIRS"} : gl::Defines{};
+}
+
 gl::Buffer<double> zeros(std::size_t count) {
     return gl::Buffer<double>(std::vector<double>(std::max<std::size_t>(count, 1)));
 }
 
 }  // namespace
 
-PartEnd::Programs::Programs(const Model& model)
+PartEnd::Programs::Programs(const Model& model, const ContactSurface* contacts)
     : sum_motions(gl::Program::compute("sim/implicit/sum_motions.comp")),
       finish(gl::Program::compute("sim/implicit/finish.comp", SumLoads::defines(model))),
       keep(energies_program(model, {"KEEP"})),
+      sum_velocities(gl::Program::compute("sim/implicit/sum_velocities.comp")),
       measure(gl::Program::compute("sim/implicit/measure_part.comp", SumLoads::defines(model))),
       sum_chunks(gl::Program::compute("sim/implicit/sum_chunks.comp")),
       judge(gl::Program::compute("sim/implicit/judge.comp")),
@@ -41,26 +77,48 @@ PartEnd::Programs::Programs(const Model& model)
       measure_guarded(energies_program(model, {"GUARDED"})),
       judge_guarded(gl::Program::compute("sim/implicit/judge.comp", {"GUARDED"})),
       stop(energies_program(model, {"STOP"})),
-      settle(gl::Program::compute("sim/implicit/settle.comp")),
+      settle(gl::Program::compute("sim/implicit/settle.comp", defines_of_settle(contacts))),
       commit(gl::Program::compute("sim/implicit/commit.comp")),
       find_energies(energies_program(model, {})),
-      begin_energies(gl::Program::compute("sim/implicit/begin_energies.comp")) {}
-
-std::vector<const gl::Program*> PartEnd::Programs::all() const {
-    return {&sum_motions,     &finish,        &keep, &measure, &sum_chunks, &judge,         &guard,
-            &measure_guarded, &judge_guarded, &stop, &settle,  &commit,     &find_energies, &begin_energies};
+      begin_energies(gl::Program::compute("sim/implicit/begin_energies.comp")),
+      has_contacts(contacts != nullptr),
+      has_restitution(bounces(contacts)) {
+    if (!has_contacts) return;
+    tie_bodies = gl::Program::compute("sim/implicit/tie_bodies.comp");
+    sum_guarded = gl::Program::compute("sim/implicit/sum_guarded.comp");
+    if (!has_restitution) return;
+    press_pairs = gl::Program::compute("sim/implicit/press_pairs.comp");
+    meet_pairs = gl::Program::compute("sim/implicit/meet_pairs.comp");
 }
 
-PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system)
+std::vector<const gl::Program*> PartEnd::Programs::all() const {
+    std::vector<const gl::Program*> all = {&sum_motions, &finish, &keep,   &sum_velocities,  &measure,
+                                           &sum_chunks,  &judge,  &guard,  &measure_guarded, &judge_guarded,
+                                           &stop,        &settle, &commit, &find_energies,   &begin_energies};
+    if (has_contacts) all.insert(all.end(), {&tie_bodies, &sum_guarded});
+    if (has_restitution) all.insert(all.end(), {&press_pairs, &meet_pairs});
+    return all;
+}
+
+PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system, const ContactSurface* contacts)
     : state_(&state),
       system_(&system),
       chunk_count_(system.buffers().chunk_count),
       object_count_(system.buffers().object_count),
       has_colliders_(!model.colliders.empty()),
       masses_(model.masses),
-      programs_(model),
+      programs_(model, contacts),
       springs_(model.springs, gl::TexelFormat::rgba32ui),
       elements_(elements_of(model), gl::TexelFormat::rgba32ui),
+      node_objects_(objects_by_node(model), gl::TexelFormat::rgba32f),
+      kinds_(contacts != nullptr ? contacts->kinds : std::vector<std::uint32_t>(1), gl::TexelFormat::r32ui),
+      restitutions_(restitutions_of(contacts), gl::TexelFormat::r32f),
+      kind_count_(contacts != nullptr ? contacts->kind_count : 1),
+      meeting_capacity_(programs_.has_restitution ? static_cast<std::uint32_t>(system.capacity().pairs) : 0),
+      rigid_velocities_(object_count_, gl::TexelFormat::rgba32f),
+      pair_dispatch_(std::vector<Dispatch>{{0, 1, 1, 0}}),
+      presses_(zeros(end_sums::kPairSums * meeting_capacity_)),
+      pair_meetings_(zeros(1 + 2 * end_sums::kPairMeeting * meeting_capacity_)),
       finish_sums_(zeros(end_sums::kFinishSums * chunk_count_)),
       energy_sums_(zeros(end_sums::kEnergySums * chunk_count_)),
       part_sums_(zeros(end_sums::kPartSums * chunk_count_)),
@@ -68,7 +126,8 @@ PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system)
       pressed_sums_(zeros(end_sums::kPressedSums * chunk_count_ * model.colliders.size())),
       meetings_(zeros(end_sums::kMeeting * object_count_ * model.colliders.size())),
       object_sums_(zeros(end_sums::kObjectSums * object_count_)),
-      energies_(std::vector<BodyEnergy>(object_count_)),
+      island_sums_(zeros(end_sums::kIslandSums * object_count_)),
+      energies_(unknown_energies(object_count_)),
       changes_(std::vector<BodyChange>(object_count_)) {
     for (const ModelObject& object : model.objects) nodes_.push_back(object.nodes);
     bind_buffers(model);
@@ -92,6 +151,11 @@ void PartEnd::bind_buffers(const Model& model) const {
         bind("PressedSums", pressed_sums_);
         bind("Meetings", meetings_);
         bind("ObjectSums", object_sums_);
+        bind("IslandSums", island_sums_);
+        bind("RigidVelocities", rigid_velocities_.values);
+        bind("rigid_velocities", rigid_velocities_.texels);
+        bind("node_objects", node_objects_);
+        bind_contacts(*program);
         bind("BodyEnergies", energies_);
         bind("BodyChanges", changes_);
         bind("springs", springs_);
@@ -107,6 +171,19 @@ void PartEnd::bind_buffers(const Model& model) const {
         system_->elastic.bind_tets(*program);
     p.measure.bind("ElasticForces", system_->elastic.forces());
     system_->elastic.bind_product(p.measure, system_->buffers().displacements.texels);
+}
+
+void PartEnd::bind_contacts(const gl::Program& program) const {
+    const auto bind = [&](const char* name, const auto& buffer) {
+        if (program.declares(name)) program.bind(name, buffer);
+    };
+    bind("kinds", kinds_);
+    bind("restitutions", restitutions_);
+    bind("Dispatches", pair_dispatch_);
+    bind("PairPresses", presses_);
+    bind("PairMeetings", pair_meetings_);
+    program.set("kind_count", kind_count_);
+    program.set("meeting_capacity", meeting_capacity_);
 }
 
 void PartEnd::bind_nodes() const {
@@ -125,6 +202,14 @@ void PartEnd::bind_nodes() const {
     for (const gl::Program* program : {&p.keep, &p.stop, &p.finish})
         program->bind("EndVelocities", to.velocities);
     for (const gl::Program* program : {&p.finish, &p.guard}) program->bind("EndPositions", to.positions);
+    if (p.has_contacts) {
+        p.sum_guarded.bind("positions", from.position_texels);
+        p.sum_guarded.bind("end_positions", to.position_texels);
+    }
+    if (p.has_restitution) {
+        p.press_pairs.bind("positions", from.position_texels);
+        p.press_pairs.bind("velocities", to.velocity_texels);
+    }
     p.commit.bind("Positions", from.positions);
     p.commit.bind("Velocities", from.velocities);
     p.commit.bind("end_positions", to.position_texels);
@@ -142,33 +227,62 @@ void PartEnd::begin_step(const ModelBuffers& model) const {
     run(programs_.begin_energies, (object_count_ + 63) / 64);
 }
 
-void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
+void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
     const Programs& p = programs_;
     for (const gl::Program* program : {&p.finish, &p.measure}) {
         if (loads != nullptr) loads->bind(*program);
         model.pulls.bind(*program);
     }
-    for (const gl::Program* program : {&p.keep, &p.measure_guarded, &p.stop})
-        model.volume_term.bind(*program);
-    model.bind_colliders(p.guard);
-    for (const gl::Program* program : {&p.measure, &p.settle}) program->bind("colliders", model.colliders);
-    {
-        const TimedStage part(timer, "advance_nodes.finish");
-        for (const gl::Program* program : {&p.sum_motions, &p.finish, &p.keep, &p.measure})
-            run(*program, chunk_count_);
-        run(p.sum_chunks, object_count_);
-        run(p.judge, 1);
-    }
+    model.volume_term.bind(p.keep);
+    p.measure.bind("colliders", model.colliders);
+    const TimedStage part(timer, "advance_nodes.finish");
+    if (p.has_contacts) run(p.tie_bodies, 1);
+    for (const gl::Program* program : {&p.sum_motions, &p.finish, &p.keep}) run(*program, chunk_count_);
+    run(p.sum_velocities, object_count_);
+    run(p.measure, chunk_count_);
+    run(p.sum_chunks, object_count_);
+    run(p.judge, 1);
+}
+
+void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
+    finish(model, loads, timer);
     const TimedStage part(timer, "advance_nodes.guard");
     if (has_colliders_) {
-        for (const gl::Program* program : {&p.guard, &p.measure_guarded}) run(*program, chunk_count_);
-        run(p.sum_chunks, object_count_);
-        run(p.judge_guarded, 1);
-        run(p.stop, chunk_count_);
-        run(p.sum_chunks, object_count_);
+        model.bind_colliders(programs_.guard);
+        run(programs_.guard, chunk_count_);
+        end_guarded(model);
     }
-    run(p.settle, 1);
-    run(p.commit, chunk_count_);
+    end_part(model);
+}
+
+void PartEnd::settle(const ModelBuffers& model, StageTimer* timer) const {
+    const TimedStage part(timer, "advance_nodes.guard");
+    run(programs_.sum_guarded, chunk_count_);
+    end_guarded(model);
+    end_part(model);
+}
+
+// Where it has moved nodes, energies are found anew.
+void PartEnd::end_guarded(const ModelBuffers& model) const {
+    const Programs& p = programs_;
+    for (const gl::Program* program : {&p.measure_guarded, &p.stop}) model.volume_term.bind(*program);
+    run(p.measure_guarded, chunk_count_);
+    run(p.sum_chunks, object_count_);
+    run(p.judge_guarded, 1);
+    run(p.stop, chunk_count_);
+    run(p.sum_chunks, object_count_);
+}
+
+void PartEnd::end_part(const ModelBuffers& model) const {
+    programs_.settle.bind("colliders", model.colliders);
+    if (programs_.has_restitution) {
+        gl::barrier(gl::Barrier::command);
+        programs_.press_pairs.dispatch_indirect(pair_dispatch_.id(), 0);
+        gl::barrier(gl::Barrier::storage);
+        run(programs_.meet_pairs, 1);
+    }
+    run(programs_.settle, 1);
+    run(programs_.commit, chunk_count_);
 }
 
 void PartEnd::forget() {
@@ -177,8 +291,9 @@ void PartEnd::forget() {
     state_->plane_memories.upload(std::vector<PlaneMemory>(planes));
     state_->clock.upload(std::vector<StepClock>(1));
     state_->paces.values.upload(std::vector<BodyPace>(object_count_));
-    energies_.upload(std::vector<BodyEnergy>(object_count_));
+    energies_.upload(unknown_energies(object_count_));
     meetings_.upload(std::vector<double>(meetings_.size()));
+    pair_meetings_.upload(std::vector<double>(pair_meetings_.size()));
 }
 
 PartEnd::Memory PartEnd::empty_memory() const {
@@ -187,7 +302,8 @@ PartEnd::Memory PartEnd::empty_memory() const {
             std::vector<glm::vec4>(state_->accelerations.values.size()),
             std::vector<PlaneMemory>(state_->plane_memories.size()),
             std::vector<BodyEnergy>(energies_.size()),
-            std::vector<double>(meetings_.size())};
+            std::vector<double>(meetings_.size()),
+            std::vector<double>(pair_meetings_.size())};
 }
 
 PartEnd::Memory PartEnd::memory() const {
@@ -198,6 +314,7 @@ PartEnd::Memory PartEnd::memory() const {
     state_->plane_memories.download(memory.planes);
     energies_.download(memory.energies);
     meetings_.download(memory.meetings);
+    pair_meetings_.download(memory.pair_meetings);
     return memory;
 }
 
@@ -208,6 +325,7 @@ void PartEnd::set_memory(const Memory& memory) {
     state_->plane_memories.upload(memory.planes);
     energies_.upload(memory.energies);
     meetings_.upload(memory.meetings);
+    pair_meetings_.upload(memory.pair_meetings);
 }
 
 // Accelerations are Euler's.

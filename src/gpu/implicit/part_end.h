@@ -11,23 +11,29 @@
 #include "gpu/implicit/step_state.h"
 #include "gpu/implicit/step_system.h"
 #include "gpu/model_buffers.h"
+#include "model/contact/contact_surface.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
 
 /// The end of a try to make a part of an implicit step, after its system is solved: where nodes are then, and
 /// how fast; whether they have gained energy, and so whether the part is made, or has to be made again, which
-/// the next try does; colliders, what is owed, and impacts. Bodies touch nothing but colliders. All decisions
-/// are made on the device (StepClock). CPU twins: cpu::ImplicitStep::run, EnergyAccount, Paces, Guard,
-/// Restitution, TimeScheme.
+/// the next try does; colliders, what is owed, and impacts. Bodies that touch each other are an island, by
+/// the tables of the system's rows. All decisions are made on the device (StepClock). CPU twins:
+/// cpu::ImplicitStep::run, EnergyAccount, Paces, Guard, Restitution, TimeScheme.
+///
+/// A guard of pairs of surfaces goes between finish() and settle(); with colliders alone run() does it all.
 ///
 /// What it needs of the state where a try is solved: `from`, accelerations; of the clock size, left, step,
-/// has_past, goes_on and is_over; of paces is_held, past, and the mass beside the velocity. A part that is
+/// has_past, goes_on and is_over; of paces past, the body's mass beside the velocity, and of its island
+/// is_held; of the system rows, their tables, and slips. A part that is
 /// made ends in `from`.
 class PartEnd {
 public:
     /// @param state, system have to live as long
-    PartEnd(const Model& model, StepState& state, StepSystem& system);
+    /// @param contacts how objects press each other; null: they have no rows with each other
+    PartEnd(const Model& model, StepState& state, StepSystem& system,
+            const ContactSurface* contacts = nullptr);
 
     /// A step begins: finds the elastic energy of bodies in `from`, which may have been set from outside.
     void begin_step(const ModelBuffers& model) const;
@@ -35,6 +41,12 @@ public:
     /// Ends with the barrier for whoever reads the state.
     /// @param timer as of PartStart::run
     void run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
+    /// Its first part: where nodes are wanted, in state.to; and whether the part is made again by Euler's
+    /// scheme. Ends with the barrier for whoever moves them as textures or storage.
+    void finish(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
+    /// What is left, after a guard has moved nodes in state.to, if it has.
+    /// @pre there are contacts, and what has moved them ended with the barrier for textures
+    void settle(const ModelBuffers& model, StageTimer* timer = nullptr) const;
 
     /// Nodes were set from outside.
     void forget();
@@ -51,7 +63,7 @@ public:
         std::vector<glm::vec4> accelerations;
         std::vector<PlaneMemory> planes;
         std::vector<BodyEnergy> energies;
-        std::vector<double> meetings;
+        std::vector<double> meetings, pair_meetings;
     };
     Memory memory() const;
     /// Of the right sizes.
@@ -59,20 +71,28 @@ public:
     /// @pre of these sizes, and barrier(buffer_update) since the last dispatch
     void set_memory(const Memory& memory);
 
-    /// By object; and by collider and object, end_sums::kMeeting each.
+    /// By object; by collider and object, end_sums::kMeeting each; and how many of two objects there are,
+    /// with end_sums::kPairMeeting each.
     const gl::Buffer<BodyEnergy>& energies() const { return energies_; }
     const gl::Buffer<double>& meetings() const { return meetings_; }
+    const gl::Buffer<double>& pair_meetings() const { return pair_meetings_; }
 
 private:
     struct Programs {
-        explicit Programs(const Model& model);
+        Programs(const Model& model, const ContactSurface* contacts);
         std::vector<const gl::Program*> all() const;
-        gl::Program sum_motions, finish, keep, measure, sum_chunks, judge, guard, measure_guarded,
-            judge_guarded, stop, settle, commit, find_energies, begin_energies;
+        gl::Program sum_motions, finish, keep, sum_velocities, measure, sum_chunks, judge, guard,
+            measure_guarded, judge_guarded, stop, settle, commit, find_energies, begin_energies;
+        bool has_contacts, has_restitution;   // of objects with each other
+        gl::Program tie_bodies, sum_guarded;  // with contacts
+        gl::Program press_pairs, meet_pairs;  // with restitution
     };
     void bind_buffers(const Model& model) const;
+    void bind_contacts(const gl::Program& program) const;
     void bind_nodes() const;
     void run(const gl::Program& program, std::uint32_t groups) const;
+    void end_guarded(const ModelBuffers& model) const;
+    void end_part(const ModelBuffers& model) const;
 
     StepState* state_;
     StepSystem* system_;
@@ -83,9 +103,16 @@ private:
     Programs programs_;
     gl::TexelTable<Spring> springs_;
     gl::TexelTable<glm::uvec4> elements_;
+    gl::TexelTable<glm::vec4> node_objects_;
+    gl::TexelTable<std::uint32_t> kinds_;  // of objects, and restitutions of two kinds
+    gl::TexelTable<float> restitutions_;
+    std::uint32_t kind_count_, meeting_capacity_;
+    StepBuffer<BodyMotion> rigid_velocities_;     // by object
+    gl::Buffer<Dispatch> pair_dispatch_;          // a work group a pair of the tables
+    gl::Buffer<double> presses_, pair_meetings_;  // by pair of the tables; of objects
     gl::Buffer<double> finish_sums_, energy_sums_, part_sums_, guard_sums_;  // by chunk
     gl::Buffer<double> pressed_sums_, meetings_;                             // by collider
-    gl::Buffer<double> object_sums_;
+    gl::Buffer<double> object_sums_, island_sums_;                           // by object
     gl::Buffer<BodyEnergy> energies_;
     gl::Buffer<BodyChange> changes_;
 };

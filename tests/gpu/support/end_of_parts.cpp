@@ -1,6 +1,7 @@
 #include "gpu/support/end_of_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -28,8 +29,11 @@ using Outcome = EndReference::Outcome;
 
 StepRow end_row(const cpu::ContactRow<double>& row) {
     StepRow result{};
-    result.node_0 = row.nodes[0];
-    result.weights = glm::vec4(row.weights[0], 0.0, 0.0, 0.0);
+    const std::array<std::uint32_t*, 4> nodes{&result.node_0, &result.node_1, &result.node_2, &result.node_3};
+    for (std::uint32_t k = 0; k < row.count; ++k) {
+        *nodes[k] = row.nodes[k];
+        result.weights[static_cast<int>(k)] = static_cast<float>(row.weights[k]);
+    }
     result.normal = glm::vec4(row.normal, row.gap);
     result.reach = static_cast<float>(row.reach);
     result.stiffness = static_cast<float>(row.stiffness);
@@ -38,9 +42,45 @@ StepRow end_row(const cpu::ContactRow<double>& row) {
     result.hold = glm::vec4(row.hold, row.limit);
     result.object = row.object;
     result.other = row.other;
-    result.plane = row.plane();
+    result.plane = row.object == kNoNode ? row.plane() : 0;
     result.ease = static_cast<float>(row.ease);
     return result;
+}
+
+// In the order of tables.
+std::vector<cpu::ContactRow<double>> sorted_rows(const EndReference& reference) {
+    std::vector<cpu::ContactRow<double>> rows = reference.system.rows;
+    const auto key = [&](const cpu::ContactRow<double>& row) {
+        const bool is_second = reference.model->is_body(row.other);
+        return std::array{reference.islands.of_bodies[is_second ? row.other : row.object], row.object,
+                          row.other};
+    };
+    std::stable_sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    return rows;
+}
+
+// Of the first body with itself.
+cpu::ContactRow<double> own_row(std::uint32_t k) {
+    cpu::ContactRow<double> row;
+    row.nodes = {k, 40 + k, 20 + 2 * k, 0};
+    row.weights = {-1.0, 0.25, 0.75, 0.0};
+    row.count = 3;
+    row.normal = glm::dvec3(glm::vec3(glm::normalize(glm::dvec3(0.2 * k, 1.0, 0.5))));
+    row.gap = 2e-3 + 1e-3 * k;
+    row.reach = 6e-3;
+    row.stiffness = 500.0;
+    row.friction = 0.3;
+    row.limit = 0.5;
+    row.key = std::uint64_t(1) << 63 | k;
+    return row;
+}
+
+// Of a system for a case.
+gpu::RowCapacity capacity_for(const EndCase& at) {
+    const Model& model = *at.model;
+    const std::size_t planes = model.colliders.size() * model.body_node_count();
+    if (!at.contacts) return {std::max<std::size_t>(planes, 1), model.body_count()};
+    return {planes + 4096, model.body_count() + 64};
 }
 
 std::vector<glm::vec4> as_floats(const std::vector<glm::dvec4>& values) {
@@ -54,13 +94,11 @@ public:
         : at_(at),
           model_(*at.model),
           buffers_(model_),
-          surface_(make_contact_surface(model_, {})),
+          surface_(make_contact_surface(model_, CollisionSettings{.restitution = at.restitution})),
           state_(model_, surface_),
-          system_(model_, gpu::RowCapacity{std::max<std::size_t>(
-                                               model_.colliders.size() * model_.body_node_count(), 1),
-                                           model_.body_count()}),
-          end_(model_, state_, system_),
-          reference_(at.model, at.restitution),
+          system_(model_, capacity_for(at)),
+          end_(model_, state_, system_, at.contacts ? &surface_ : nullptr),
+          reference_(at.model, at.restitution, at.contacts),
           pulls_(model_.node_count()) {
         if (!model_.loads.empty()) {
             loads_.emplace(model_);
@@ -68,6 +106,8 @@ public:
             for (const glm::vec4& force : read(loads_->forces())) reference_.loads.emplace_back(force);
         }
         if (at.is_pulled) hold();
+        for (int k = 0; k < at.own_rows; ++k)
+            reference_.own_rows.push_back(own_row(static_cast<std::uint32_t>(k)));
         system_.iterations = 0;
         clock_.size = clock_.left = static_cast<float>(kStepSize);
         clock_.goes_on = 1;
@@ -83,7 +123,8 @@ public:
         end_.begin_step(buffers_);
         std::vector<Outcome> outcomes;
         for (const PartChange& part : at_.parts) {
-            if (part.sets_velocities) set_velocities(random);
+            if (part.sets_velocities || part.thrown != glm::dvec3(0.0)) set_velocities(part, random);
+            if (part.strikes) reference_.paces.struck()[0] = 1;
             if (part.forgets || part.goes_on) forget(part.goes_on, random);
             reference_.begin();
             bool damps = false;
@@ -99,6 +140,7 @@ public:
         for (const Outcome wanted : at_.outcomes)
             error_.fail_if(std::find(outcomes.begin(), outcomes.end(), wanted) == outcomes.end());
         error_.fail_if((at_.is_struck && !was_struck_) || (at_.is_guarded && !was_guarded_));
+        error_.fail_if(largest_island_ < at_.island || (at_.is_torn && !was_torn_));
         return error_.worst();
     }
 
@@ -107,9 +149,9 @@ public:
         reference_.begin();
         reference_.solve(kStepSize, false);
         begin_on_gpu(kStepSize, false);
-        end_.run(buffers_, nullptr);
+        end_on_gpu();
         end_.forget();
-        end_.run(buffers_, nullptr);
+        end_on_gpu();
         velocities();
     }
 
@@ -133,9 +175,14 @@ private:
         reference_.pulls = &pulls_;
     }
 
-    void set_velocities(RandomMaker& random) {
-        for (std::size_t n = 0; n < reference_.from.velocities.size(); ++n)
-            reference_.from.velocities[n] += glm::dvec4(glm::vec4(random.point(0.1), 0.0));
+    void set_velocities(const PartChange& part, RandomMaker& random) {
+        const Range& last = model_.objects[model_.body_count() - 1].nodes;
+        for (std::uint32_t n = 0; n < model_.body_node_count(); ++n) {
+            if (part.sets_velocities)
+                reference_.from.velocities[n] += glm::dvec4(glm::vec4(random.point(0.1), 0.0));
+            if (n >= last.first) reference_.from.velocities[n] += glm::dvec4(part.thrown, 0.0);
+            reference_.from.velocities[n] = glm::dvec4(glm::vec4(reference_.from.velocities[n]));
+        }
         reference_.energy.change();
         gl::barrier(gl::Barrier::buffer_update);
         state_.from.velocities.upload(as_floats(reference_.from.velocities));
@@ -164,17 +211,19 @@ private:
         reference_.solve(step, damps);
         for (std::size_t n = 0; n < reference_.system.displacements.size(); ++n) {
             glm::dvec3& d = reference_.system.displacements[n];
+            const bool is_last = n >= model_.objects[model_.body_count() - 1].nodes.first;
             if (reference_.from.positions[n].w > 0.0)
-                d += step * (part.push + random.point(std::max(part.noise, 1e-9)));
+                d += step * (part.push + (is_last ? part.last_push : glm::dvec3(0.0)) +
+                             random.point(std::max(part.noise, 1e-9)));
             d = glm::dvec3(glm::vec3(d));
         }
         if (part.breaks) reference_.system.displacements[3].x = std::numeric_limits<double>::quiet_NaN();
-        rounding_ = 3e-6 * (1.0 + glm::length(part.push)) / step;
+        rounding_ = 3e-6 * (1.0 + glm::length(part.push) + glm::length(part.last_push)) / step;
         begin_on_gpu(step, damps);
-        end_.run(buffers_, loads_ ? &*loads_ : nullptr);
         const std::vector<cpu::ContactRow<double>> rows = reference_.system.rows;
         const double shortest = kStepSize / cpu::tuning::kMostParts;
         const Outcome outcome = reference_.end(shortest);
+        end_on_gpu();
         was_guarded_ = was_guarded_ || reference_.is_guarded;
         compare_clock(outcome, step, shortest);
         compare_paces(outcome);
@@ -189,7 +238,7 @@ private:
         const cpu::StepSystem<double>& solved = reference_.system;
         std::vector<StepRow> rows;
         std::vector<glm::vec4> slips, loads, displacements;
-        for (const cpu::ContactRow<double>& row : solved.rows) {
+        for (const cpu::ContactRow<double>& row : sorted_rows(reference_)) {
             rows.push_back(end_row(row));
             slips.emplace_back(cpu::relative<double>(row, solved.displacements), row.limit);
         }
@@ -198,10 +247,15 @@ private:
             displacements.emplace_back(solved.displacements[n], 0.0);
         }
         std::vector<BodyPace> paces = read(state_.paces.values);
-        for (std::size_t o = 0; o < paces.size(); ++o) {
+        for (std::size_t o = 0; o < model_.body_count(); ++o) {
+            const std::uint32_t island = reference_.islands.of_bodies[o];
             paces[o].past = static_cast<float>(reference_.scheme.of(o).past);
-            paces[o].is_held = reference_.islands.are_held[o];
-            paces[o].velocity.w = static_cast<float>(reference_.islands.masses[o]);
+            paces[o].is_held = reference_.islands.are_held[island];
+            paces[o].velocity.w = static_cast<float>(model_.objects[o].mass);
+            was_torn_ = was_torn_ || reference_.scheme.of(o).is_whole;
+            const auto count =
+                std::count(reference_.islands.of_bodies.begin(), reference_.islands.of_bodies.end(), island);
+            largest_island_ = std::max(largest_island_, static_cast<std::uint32_t>(count));
         }
         state_.paces.values.upload(paces);
         clock_.step = static_cast<float>(step);
@@ -227,6 +281,18 @@ private:
         clock_.goes_on = 1;
         clock_.is_over = 0;
         state_.clock.upload(std::vector<StepClock>{clock_});
+    }
+
+    // With contacts the reference's guard moves nodes.
+    void end_on_gpu() {
+        const gpu::SumLoads* const loads = loads_ ? &*loads_ : nullptr;
+        if (!at_.contacts) return end_.run(buffers_, loads);
+        end_.finish(buffers_, loads);
+        std::vector<glm::vec4> positions = read(state_.to.positions);
+        for (std::size_t n = 0; n < reference_.guarded.size(); ++n)
+            if (reference_.guarded[n].w >= 0.0) positions[n] = reference_.guarded[n];
+        state_.to.positions.upload(positions);
+        end_.settle(buffers_);
     }
 
     void compare_clock(Outcome outcome, double step, double shortest) {
@@ -281,6 +347,7 @@ private:
         const std::vector<PlaneMemory> memories = read(state_.plane_memories);
         std::vector<std::uint8_t> are_known(memories.size());
         for (const cpu::ContactRow<double>& row : rows) {
+            if (row.object != kNoNode) continue;
             const std::size_t at = row.plane() * model_.body_node_count() + row.nodes[0];
             are_known[at] = 1;
             error_.add(static_cast<double>(memories[at].reach), row.reach, 1e-5 * row.reach);
@@ -297,6 +364,7 @@ private:
         };
         StateReader reader(reference_.rows);
         for (const Memory& memory : reader.take<Memory>(reader.take<std::size_t>())) {
+            if (memory.object != kNoNode) continue;
             const std::size_t plane = memory.key >> 31 & 0x7FFFFFFFu, node = memory.key & 0x7FFFFFFFu;
             const PlaneMemory& actual = memories[plane * model_.body_node_count() + node];
             const double bound = 1e-3 * (1.0 + memory.limit);
@@ -313,10 +381,12 @@ private:
         schemes.take<double>();
         const auto accelerations = schemes.take<glm::dvec3>(schemes.take<std::size_t>());
         const auto rates = schemes.take<Rates>(model_.body_count());
+        const auto tied = schemes.take<std::uint32_t>(model_.body_count());
         const std::vector<glm::vec4> actual = read(state_.accelerations.values);
         double most = 10.0;
         for (const glm::dvec3& a : accelerations) most = std::max(most, glm::length(a));
-        for (std::size_t n = 0; n < accelerations.size(); ++n)
+        for (std::size_t n = 0; n < std::min<std::size_t>(accelerations.size(), model_.body_node_count());
+             ++n)
             error_.add(glm::dvec3(actual[n]), accelerations[n], 2e-3 * most + rounding_);
         const std::vector<BodyPace> paces = read(state_.paces.values);
         const std::vector<BodyEnergy> energies = read(end_.energies());
@@ -337,6 +407,8 @@ private:
             error_.add(energies[o].elastic, elastic, 1e-4 * (0.1 + elastic));
             error_.add(energies[o].contacts, contacts[o], bound);
             error_.add(energies[o].debt, debts[o], bound);
+            error_.fail_if(energies[o].tied != tied[o]);
+            error_.fail_if((energies[o].is_whole != 0) != reference_.scheme.of(o).is_whole);
         }
         compare_meetings();
     }
@@ -346,14 +418,18 @@ private:
             double speed, time, energy, size;
             glm::dvec3 impulse, arm, held, pressing;
         };
-        std::vector<double> actual = read(end_.meetings());
+        std::vector<double> actual = read(end_.meetings()), of_pairs = read(end_.pair_meetings());
+        std::size_t pair_count = 0;
         StateReader reader(reference_.restitution);
         const auto count = reader.take<std::size_t>();
         const std::size_t objects = model_.objects.size();
         for (std::size_t k = 0; k < count; ++k) {
             const auto first = reader.take<std::size_t>(), object = reader.take<std::size_t>();
             const auto meeting = reader.take<Meeting>();
-            double* const at = &actual[((first - objects) * objects + object) * end_sums::kMeeting];
+            const bool is_pair = first < objects;
+            double* const at = is_pair ? &of_pairs[std::min(1 + end_sums::kPairMeeting * pair_count++,
+                                                            of_pairs.size() - end_sums::kPairMeeting)]
+                                       : &actual[((first - objects) * objects + object) * end_sums::kMeeting];
             const double bound = 1e-3 * (0.1 + meeting.size);
             error_.add(at[end_sums::kMetTime], meeting.time, 1e-7);
             error_.add(at[end_sums::kMetSpeed], meeting.speed, 1e-3);
@@ -363,8 +439,15 @@ private:
                 error_.add(at[end_sums::kMetImpulse + static_cast<unsigned>(i)], meeting.impulse[i], bound);
                 error_.add(at[end_sums::kMetArm + static_cast<unsigned>(i)], meeting.arm[i], bound);
             }
+            if (is_pair) {
+                error_.fail_if(at[end_sums::kMetFirst] != static_cast<double>(first) ||
+                               at[end_sums::kMetSecond] != static_cast<double>(object));
+                for (int i = 0; i < 3; ++i)
+                    error_.add(at[end_sums::kMetHeld + static_cast<unsigned>(i)], meeting.held[i], bound);
+            }
             at[end_sums::kMetTime] = 0.0;
         }
+        error_.fail_if(of_pairs[0] != static_cast<double>(pair_count));
         for (std::size_t m = 0; m < actual.size() / end_sums::kMeeting; ++m)
             error_.fail_if(actual[m * end_sums::kMeeting + end_sums::kMetTime] != 0.0);
     }
@@ -380,7 +463,8 @@ private:
     cpu::Pulls<double> pulls_;
     std::optional<gpu::SumLoads> loads_;
     StepClock clock_{};
-    bool was_struck_ = false, was_guarded_ = false;
+    bool was_struck_ = false, was_guarded_ = false, was_torn_ = false;
+    std::uint32_t largest_island_ = 0;
     double rounding_ = 0.0;  // of accelerations [m/s^2]
     WorstError error_;
 };

@@ -17,10 +17,13 @@ struct PartChange {
     double step = kStepSize / 4.0;  ///< [s]
     double noise = 0.0;             ///< of displacements, as a speed [m/s]
     glm::dvec3 push{0.0};           ///< of all nodes, as a speed [m/s]
+    glm::dvec3 last_push{0.0};      ///< of the last body's alone
     bool breaks = false;            ///< a displacement is no number
     bool sets_velocities = false;   ///< before it, from outside
     bool forgets = false;           ///< before it
     bool goes_on = false;           ///< before it, with velocities of before
+    glm::dvec3 thrown{0.0};         ///< before it, what the last body's velocity changes by [m/s]
+    bool strikes = false;           ///< before it, the first body
 };
 
 /// Parts, one after the other.
@@ -32,6 +35,12 @@ struct EndCase {
     std::vector<EndReference::Outcome> outcomes = {};  // of tries that have to be among them
     bool is_struck = false;                            ///< some body has to be struck
     bool is_guarded = false;                           ///< the guard has to move nodes
+    bool contacts = false;                             ///< objects meet each other, and bodies themselves
+    /// With contacts: the most bodies of an island of any part; whether bodies that are tied have to go by
+    /// different schemes.
+    std::uint32_t island = 0;
+    bool is_torn = false;
+    int own_rows = 0;  ///< of the first body with itself
 };
 
 /// @return the greatest error over its bound

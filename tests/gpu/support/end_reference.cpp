@@ -11,7 +11,7 @@
 namespace gelatin::test {
 namespace tuning = cpu::tuning;
 
-EndReference::EndReference(std::shared_ptr<const Model> some_model, double some_restitution)
+EndReference::EndReference(std::shared_ptr<const Model> some_model, double some_restitution, bool contacts)
     : model(std::move(some_model)),
       surface(std::make_shared<ContactSurface>(
           make_contact_surface(*model, CollisionSettings{.restitution = some_restitution}))),
@@ -24,6 +24,8 @@ EndReference::EndReference(std::shared_ptr<const Model> some_model, double some_
       paces(model),
       restitution(model, surface),
       guard(model, surface),
+      contacts_(contacts),
+      pairs_(model, surface, contacts),
       object_of_(objects_of_nodes(*model)),
       asleep_(model->body_count()),
       expected_(model->node_count()),
@@ -48,7 +50,14 @@ void EndReference::find_rows() {
                     : 0.0;
     }
     for (std::size_t o = 0; o < slacks_.size(); ++o) slacks_[o] = surface->thicknesses[o];
-    rows.make({from.positions, expected_, compliances_, slacks_, h, scheme.last_step()}, {}, system.rows);
+    if (contacts_) {
+        const cpu::Paths<double> paths{from.positions, ends_, slacks_};
+        pairs_.begin(paths, true, asleep_);
+        pairs_.run(paths);
+    }
+    rows.make({from.positions, expected_, compliances_, slacks_, h, scheme.last_step()}, pairs_.pairs(),
+              system.rows);
+    system.rows.insert(system.rows.end(), own_rows.begin(), own_rows.end());
 }
 
 void EndReference::linearise() {
@@ -96,8 +105,10 @@ void EndReference::solve(double step, bool damps) {
 void EndReference::finish() {
     Field forces(expected_.size(), glm::dvec3(0.0));
     for (std::size_t n = 0; n < loads.size(); ++n) forces[n] = glm::dvec3(loads[n]);
-    for (const cpu::ContactRow<double>& row : system.rows)
-        forces[row.nodes[0]] += row.force(cpu::relative<double>(row, system.displacements));
+    for (const cpu::ContactRow<double>& row : system.rows) {
+        const glm::dvec3 force = row.force(cpu::relative<double>(row, system.displacements));
+        for (std::uint32_t k = 0; k < row.count; ++k) forces[row.nodes[k]] += row.weights[k] * force;
+    }
     if (pulls != nullptr)
         for (const std::uint32_t n : pulls->nodes()) {
             const glm::dvec4 x = from.positions[n];
@@ -121,27 +132,42 @@ double EndReference::measure() {
         {step_size, loads, pulls, on_held_, system.rows, system.displacements, islands, asleep_, from, to});
 }
 
-// As cpu::ImplicitStep does, of islands of one body.
+// Once: what strays from paths is not found.
+void EndReference::run_guard() {
+    const std::vector<glm::dvec4> wanted = to.positions;
+    guard.run({from.positions, ends_, slacks_}, pairs_.pairs(), compliances_, to.positions);
+    is_guarded = !contacts_ && guard.has_changed();
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+        if (to.positions[n] == wanted[n]) continue;
+        is_guarded = true;
+        if (contacts_) to.positions[n] = glm::dvec4(glm::vec3(to.positions[n]), wanted[n].w);
+        guarded[n] = to.positions[n];
+    }
+}
+
+// As cpu::ImplicitStep does.
 std::vector<std::uint32_t> EndReference::stop_guarded() {
+    std::vector<cpu::RigidSums> sums(model->body_count());  // by island
+    std::vector<std::uint8_t> is_stopped(sums.size());
+    for (std::uint32_t n = 0; n < model->body_node_count(); ++n) {
+        if (to.positions[n].w == 0.0) continue;
+        const glm::dvec3 wanted = glm::dvec3(from.positions[n]) + system.displacements[n];
+        const glm::dvec3 change = (glm::dvec3(to.positions[n]) - wanted) / step_size;
+        to.velocities[n] += glm::dvec4(change, 0.0);
+        const double mass = 1.0 / to.positions[n].w;
+        const std::uint32_t island = islands.of_bodies[object_of_[n]];
+        sums[island].add(glm::dvec3(to.positions[n]), mass, mass * change);
+        if (change != glm::dvec3(0.0)) is_stopped[island] = 1;
+    }
     std::vector<std::uint32_t> stopped;
     for (std::uint32_t o = 0; o < model->body_count(); ++o) {
-        cpu::RigidSums sums;
-        bool is_stopped = false;
-        const Range& nodes = model->objects[o].nodes;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            if (to.positions[n].w == 0.0) continue;
-            const glm::dvec3 wanted = glm::dvec3(from.positions[n]) + system.displacements[n];
-            const glm::dvec3 change = (glm::dvec3(to.positions[n]) - wanted) / step_size;
-            to.velocities[n] += glm::dvec4(change, 0.0);
-            const double mass = 1.0 / to.positions[n].w;
-            sums.add(glm::dvec3(to.positions[n]), mass, mass * change);
-            is_stopped = is_stopped || change != glm::dvec3(0.0);
-        }
-        if (!is_stopped) continue;
+        const std::uint32_t island = islands.of_bodies[o];
+        if (is_stopped[island] == 0) continue;
         stopped.push_back(o);
-        if (islands.are_held[o] != 0) continue;
-        const cpu::RigidInertia inertia(sums);
-        const cpu::Twist lost = inertia.twist(sums.force, sums.moment);
+        if (islands.are_held[island] != 0) continue;
+        const cpu::RigidInertia inertia(sums[island]);
+        const cpu::Twist lost = inertia.twist(sums[island].force, sums[island].moment);
+        const Range& nodes = model->objects[o].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             to.velocities[n] -= glm::dvec4(lost.at(glm::dvec3(to.positions[n]) - inertia.center), 0.0);
     }
@@ -155,11 +181,10 @@ EndReference::Outcome EndReference::end(double shortest) {
     on_held_ = system.elastic_forces();
     gained = measure();
     is_guarded = false;
+    guarded.assign(to.positions.size(), glm::dvec4(-1.0));
     if (has_past && gained > 0.0) return Outcome::damped;
-    const cpu::Paths<double> paths{from.positions, ends_, slacks_};
-    guard.run(paths, {}, compliances_, to.positions);
+    run_guard();
     std::vector<std::uint32_t> stopped;
-    is_guarded = guard.has_changed();
     if (is_guarded) {
         gained = measure();
         if (gained > 0.0) {

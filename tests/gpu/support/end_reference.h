@@ -8,6 +8,7 @@
 #include "cpu/drive/pulls.h"
 #include "cpu/implicit/contact_rows.h"
 #include "cpu/implicit/energy_account.h"
+#include "cpu/implicit/find_pairs.h"
 #include "cpu/implicit/guard.h"
 #include "cpu/implicit/islands.h"
 #include "cpu/implicit/paces.h"
@@ -20,14 +21,15 @@
 
 namespace gelatin::test {
 
-/// Parts of implicit steps in double precision, of bodies that touch colliders alone, from the classes that
-/// cpu::ImplicitStep is made of; with all that passes between these open to see and to change.
+/// Parts of implicit steps in double precision from the classes that cpu::ImplicitStep is made of; with all
+/// that passes between these open to see and to change.
 class EndReference {
 public:
     using Field = std::vector<glm::dvec3>;
     enum class Outcome { made, damped, divided, stood_still };
 
-    EndReference(std::shared_ptr<const Model> model, double restitution);
+    /// @param contacts whether objects meet each other, and bodies themselves
+    EndReference(std::shared_ptr<const Model> model, double restitution, bool contacts);
 
     void begin();
     /// A part of `step` seconds is tried: solves it. @param damps by Euler's scheme
@@ -38,7 +40,8 @@ public:
     std::shared_ptr<const Model> model;
     std::shared_ptr<const ContactSurface> surface;
     cpu::Nodes<double> from, to;
-    std::vector<glm::dvec4> loads;  ///< [N], or none
+    std::vector<glm::dvec4> loads;                  ///< [N], or none
+    std::vector<cpu::ContactRow<double>> own_rows;  ///< that are among those of each part
     const cpu::Pulls<double>* pulls = nullptr;
     cpu::StepSystem<double> system;
     cpu::ContactRows<double> rows;
@@ -50,6 +53,7 @@ public:
     cpu::Islands islands;
     double step_size = 0.0, gained = 0.0;
     bool has_past = false, is_guarded = false;
+    std::vector<glm::dvec4> guarded;  ///< where the guard has moved nodes; w: -1 where it has not
 
 private:
     glm::dvec3 acceleration(std::size_t n) const;
@@ -57,8 +61,11 @@ private:
     void linearise();
     void finish();
     double measure();
+    void run_guard();
     std::vector<std::uint32_t> stop_guarded();
 
+    bool contacts_;
+    cpu::FindPairs<double> pairs_;
     std::vector<std::uint32_t> object_of_;
     std::vector<std::uint8_t> asleep_;  // none
     Field expected_, on_held_;

@@ -73,6 +73,54 @@ std::shared_ptr<const Model> among_colliders() {
     return std::make_shared<const Model>(std::move(model));
 }
 
+// A block that falls on another.
+std::shared_ptr<const Model> meeting_blocks(const Block& upper = {}, const Block& lower = {}) {
+    Block falls = upper;
+    falls.place += glm::dvec3(0.03, 0.303, 0.02);
+    falls.velocity += glm::dvec3(0.3, -1.0, 0.1);
+    return make_blocks({lower, falls}, {0.0, -10.0, 0.0});
+}
+
+// Two lie side by side on a third, whose lowest nodes are held and move; one more is beside them.
+std::shared_ptr<const Model> held_pile(double youngs_modulus = 1e5) {
+    std::vector<Block> blocks{
+        {.cells = {4, 2, 2}, .size = {0.7, 0.2, 0.3}, .pins = {HalfSpaceRegion{{0.0, 1.0, 0.0}, 0.01}}},
+        {.place = {0.01, 0.203, 0.01}, .velocity = {0.1, -0.5, 0.0}, .cells = {2, 2, 2}},
+        {.place = {2.0, 0.0, 0.0}, .velocity = {0.0, 1.0, 0.0}, .cells = {2, 2, 2}},
+        {.place = {0.36, 0.202, 0.0}, .velocity = {-0.1, -0.8, 0.1}, .cells = {2, 2, 2}}};
+    for (Block& block : blocks) block.youngs_modulus = youngs_modulus;
+    Model model = *make_blocks(blocks, {0.0, -10.0, 0.0});
+    for (std::size_t n = 0; n < model.velocities.size(); ++n)
+        if (model.positions[n].w == 0.0f) model.velocities[n] = glm::vec4(0.3f, 0.5f, -0.2f, 0.0f);
+    return std::make_shared<const Model>(std::move(model));
+}
+
+// Pairs that meet one after the other.
+std::shared_ptr<const Model> several_stiff_blocks() {
+    const auto block = [](const glm::dvec3& place, const glm::dvec3& velocity) {
+        return Block{.place = place, .velocity = velocity, .cells = {2, 2, 2}, .youngs_modulus = 1e8};
+    };
+    return make_blocks({block({0, 0, 0}, {0, 1.0, 0}), block({0.5, 0, 0}, {0, 0.5, 0.1}),
+                        block({0.52, 0.303, 0.02}, {0.1, -1.0, 0}),
+                        block({0.02, 0.31, 0.01}, {0.1, -1.0, 0.2}), block({0, 0.62, 0.01}, {0, -2.0, 0})},
+                       {0, -10, 0});
+}
+
+// A block on a box that moves, or whose surface does.
+std::shared_ptr<const Model> on_a_surface(const glm::vec3& velocity, const glm::vec3& belt,
+                                          double youngs_modulus = 1e5) {
+    const ColliderDescription box{
+        .shape = Shape{BoxShape{{1, 1, 1}}}, .position = {0.15, -0.5, 0.15}, .friction = 0.6};
+    Model model = *make_blocks(
+        {{.place = {0.0, 0.003, 0.0}, .velocity = {0.2, -0.5, 0.1}, .youngs_modulus = youngs_modulus},
+         {.place = {0.02, 0.307, 0.0}, .velocity = {0.0, -0.7, 0.0}, .cells = {2, 2, 2}}},
+        {0.0, -10.0, 0.0}, {box});
+    for (std::uint32_t n = model.body_node_count(); n < model.node_count(); ++n)
+        model.velocities[n] = glm::vec4(velocity, 0.0f);
+    model.surfaces[0].velocity = belt;
+    return std::make_shared<const Model>(std::move(model));
+}
+
 std::vector<PartChange> parts(int count, const PartChange& part = {}) {
     return std::vector<PartChange>(static_cast<std::size_t>(count), part);
 }
@@ -82,6 +130,92 @@ Scenario scenario(std::string name, std::function<EndCase()> make) {
                 const EndCase at = make();
                 return end_error(at);
             }};
+}
+
+// Of bodies that touch each other.
+Scenarios island_scenarios() {
+    Scenarios scenarios;
+    const auto add = [&](const char* name, std::function<EndCase()> make) {
+        scenarios.push_back(scenario(name, [make = std::move(make)] {
+            EndCase at = make();
+            at.contacts = true;
+            return at;
+        }));
+    };
+    add("two_meet", [] { return EndCase{.model = meeting_blocks(), .parts = parts(6), .island = 2}; });
+    add("two_rest_on_each_other_and_a_floor", [] {
+        const Block lower{.place = {0, 0.004, 0}, .cells = {2, 2, 2}};
+        const Block upper{.place = {0.02, 0.309, 0.01}, .cells = {2, 2, 2}};
+        return EndCase{
+            .model = make_blocks({lower, upper}, {0, -10, 0}, {kFloor}), .parts = parts(10), .island = 2};
+    });
+    add("what_an_island_owes_is_paid", [] {
+        const Block soft{.youngs_modulus = 300.0};
+        return EndCase{.model = meeting_blocks(soft, {.velocity = {0.0, 0.5, 0.2}, .cells = {2, 2, 2}}),
+                       .parts = parts(4, {.noise = 0.1}),
+                       .island = 2};
+    });
+    add("one_of_two_islands_gains", [] {
+        EndCase at{.model = held_pile(),
+                   .parts = parts(4, {.noise = 0.05}),
+                   .outcomes = {Outcome::damped, Outcome::made},
+                   .island = 3};
+        at.parts[2].noise = 1.0;
+        return at;
+    });
+    add("three_of_which_one_is_held",
+        [] { return EndCase{.model = held_pile(), .parts = parts(5), .island = 3}; });
+    add("on_a_surface_that_moves", [] {
+        return EndCase{.model = on_a_surface({0.2f, 0.3f, 0.1f}, {}), .parts = parts(6), .island = 2};
+    });
+    add("on_a_belt", [] {
+        return EndCase{.model = on_a_surface({}, {1.0f, 0.0f, 0.4f}), .parts = parts(6), .island = 2};
+    });
+    add("of_a_body_with_itself",
+        [] { return EndCase{.model = meeting_blocks(), .parts = parts(4), .island = 2, .own_rows = 6}; });
+    add("an_island_falls_apart", [] {
+        EndCase at{.model = meeting_blocks(), .parts = parts(7), .island = 2, .is_torn = true};
+        at.parts[3].thrown = {0.0, 6.0, 0.0};
+        at.parts[5].strikes = true;
+        return at;
+    });
+    for (const double restitution : {0.5, 1.0})
+        add(restitution < 1.0 ? "two_bounce" : "two_bounce_in_full", [=] {
+            const Block stiff{.velocity = {0.2, -1.0, 0.0}, .youngs_modulus = 1e8};
+            return EndCase{
+                .model = meeting_blocks(stiff, {.velocity = {0.0, 1.0, 0.0}, .youngs_modulus = 1e8}),
+                .parts = parts(14),
+                .restitution = restitution,
+                .is_struck = true,
+                .island = 2};
+        });
+    add("several_bounce", [] {
+        return EndCase{.model = several_stiff_blocks(),
+                       .parts = parts(14),
+                       .restitution = 0.5,
+                       .is_struck = true,
+                       .contacts = true,
+                       .island = 3};
+    });
+    add("bounces_off_a_surface_that_moves", [] {
+        return EndCase{.model = on_a_surface({0.2f, 0.4f, 0.1f}, {}, 1e8),
+                       .parts = parts(14),
+                       .restitution = 0.6,
+                       .is_struck = true,
+                       .island = 2};
+    });
+    add("an_island_is_guarded_and_stopped", [] {
+        EndCase at{.model = meeting_blocks(),
+                   .parts = parts(4),
+                   .is_struck = true,
+                   .is_guarded = true,
+                   .contacts = true,
+                   .island = 2};
+        at.parts[0].step = 1e-4;
+        at.parts[0].last_push = {10.0, -100.0, 0.0};
+        return at;
+    });
+    return scenarios;
 }
 
 }  // namespace
@@ -164,16 +298,20 @@ Scenarios part_end_scenarios() {
             }
             return EndCase{};
         });
-    return scenarios;
+    return joined({scenarios, island_scenarios()});
 }
 
 bool ends_repeat() {
     const EndCase at{two_blocks({.place = {0, 0.005, 0}, .velocity = {0.5, -1.0, 0.2}}), parts(2)};
-    return velocities_after(at) == velocities_after(at);
+    const EndCase island{
+        .model = several_stiff_blocks(), .parts = parts(6), .restitution = 0.5, .contacts = true};
+    return velocities_after(at) == velocities_after(at) &&
+           velocities_after(island) == velocities_after(island);
 }
 
 void run_end_programs() {
     use_programs({two_blocks({.place = {0, 0.005, 0}, .velocity = {0.5, -1.0, 0.2}}), {}});
+    use_programs({.model = meeting_blocks(), .parts = {}, .restitution = 0.5, .contacts = true});
 }
 
 }  // namespace gelatin::test
