@@ -24,7 +24,7 @@ struct PairCapacity {
 /// by the name of its block and that of its sampler in shaders/sim/implicit/.
 class PairBuffers {
 public:
-    PairBuffers(const Model& model, const ContactSurface& surface, const PairCapacity& capacity);
+    PairBuffers(const Model& model, const ContactSurface& surface, const PairCapacity& wanted);
 
     /// Makes room for more; paths stay. What was bound has to be bound again.
     void grow(const PairCapacity& wanted);
