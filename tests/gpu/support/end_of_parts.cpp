@@ -385,6 +385,7 @@ private:
         const std::vector<glm::vec4> actual = read(state_.accelerations.values);
         double most = 10.0;
         for (const glm::dvec3& a : accelerations) most = std::max(most, glm::length(a));
+        // Only free nodes' are ever read (find_targets.comp, finish.comp); those of colliders never are free.
         for (std::size_t n = 0; n < std::min<std::size_t>(accelerations.size(), model_.body_node_count());
              ++n)
             error_.add(glm::dvec3(actual[n]), accelerations[n], 2e-3 * most + rounding_);
