@@ -75,6 +75,11 @@ public:
     void bind(std::string_view sampler, const TexelTable<T>& table) const {
         bind_texels(sampler, table.texels().name());
     }
+    /// Any of these, if its source has the name.
+    template <class Resource>
+    void bind_declared(std::string_view name, const Resource& resource) const {
+        if (declares(name)) bind(name, resource);
+    }
     /// To a sampler of any kind. Whether the texture is deleted meanwhile is not noticed.
     /// @param sampler_id a sampler object; 0: the texture's own parameters
     void bind_texture(std::string_view sampler, unsigned texture, unsigned sampler_id = 0) const;

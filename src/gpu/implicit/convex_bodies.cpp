@@ -67,20 +67,15 @@ ConvexBodies::ConvexBodies(const Model& model, const ContactSurface& surface, bo
 }
 
 void ConvexBodies::bind(const gl::Program& program) const {
-    const auto bind_one = [&](const char* name, const auto& buffer) {
-        if (program.declares(name)) program.bind(name, buffer);
-    };
     program.set("tet_count", tet_count);
-    bind_one("convex_bodies", convex_bodies_);
-    bind_one("convex_tets", tets_);
-    bind_one("tet_bodies", tet_bodies_);
-    bind_one("tet_inverses", tet_inverses_);
-    bind_one("rest_positions", rest_positions_);
-    bind_one("rest_boxes", rest_boxes_);
-    bind_one("Rotations", rotations_.values);
-    bind_one("rotations", rotations_.texels);
-    bind_one("LostBoxes", lost_boxes_.values);
-    bind_one("lost_boxes", lost_boxes_.texels);
+    program.bind_declared("convex_bodies", convex_bodies_);
+    program.bind_declared("convex_tets", tets_);
+    program.bind_declared("tet_bodies", tet_bodies_);
+    program.bind_declared("tet_inverses", tet_inverses_);
+    program.bind_declared("rest_positions", rest_positions_);
+    program.bind_declared("rest_boxes", rest_boxes_);
+    rotations_.bind(program, "Rotations", "rotations");
+    lost_boxes_.bind(program, "LostBoxes", "lost_boxes");
 }
 
 }  // namespace gelatin::gpu

@@ -118,41 +118,32 @@ void FindPairs::bind_buffers() const {
 }
 
 void FindPairs::bind_tables(const gl::Program& program) const {
-    const auto bind_one = [&](const char* name, const auto& buffer) {
-        if (program.declares(name)) program.bind(name, buffer);
-    };
     program.set("finds_own", programs_.own ? 1u : 0u);
-    bind_one("positions", state_.from.position_texels);
-    bind_one("tree_nodes", trees_.node_texels);
-    bind_one("tree_boxes", trees_.box_texels);
-    bind_one("TreeBoxes", trees_.boxes);
-    bind_one("roots", trees_.root_texels);
-    bind_one("LevelNodes", trees_.level_nodes);
-    bind_one("object_nodes", object_nodes_);
-    bind_one("face_starts", face_starts_);
-    bind_one("leaf_starts", leaf_starts_);
-    bind_one("surface_nodes", surface_nodes_);
-    bind_one("face_edges", face_edges_);
+    program.bind_declared("positions", state_.from.position_texels);
+    program.bind_declared("tree_nodes", trees_.node_texels);
+    program.bind_declared("tree_boxes", trees_.box_texels);
+    program.bind_declared("TreeBoxes", trees_.boxes);
+    program.bind_declared("roots", trees_.root_texels);
+    program.bind_declared("LevelNodes", trees_.level_nodes);
+    program.bind_declared("object_nodes", object_nodes_);
+    program.bind_declared("face_starts", face_starts_);
+    program.bind_declared("leaf_starts", leaf_starts_);
+    program.bind_declared("surface_nodes", surface_nodes_);
+    program.bind_declared("face_edges", face_edges_);
 }
 
 void FindPairs::bind_lists(const gl::Program& program) const {
-    const auto bind_one = [&](const char* name, const auto& buffer) {
-        if (program.declares(name)) program.bind(name, buffer);
-    };
-    bind_one("Speeds", speeds_);
-    bind_one("Dispatches", dispatches_);
-    bind_one("search_starts", of_slots_.starts.texels);
-    bind_one("search_sums", of_slots_.group_sums.texels);
-    bind_one("walk_starts", of_searches_.starts.texels);
-    bind_one("walk_sums", of_searches_.group_sums.texels);
-    bind_one("hit_starts", of_leaf_pairs_.starts.texels);
-    bind_one("hit_sums", of_leaf_pairs_.group_sums.texels);
-    bind_one("Searches", searches_.values);
-    bind_one("searches", searches_.texels);
-    bind_one("LeafPairs", leaf_pairs_.values);
-    bind_one("leaf_pairs", leaf_pairs_.texels);
-    bind_one("Hits", hits_.values);
-    bind_one("hits", hits_.texels);
+    program.bind_declared("Speeds", speeds_);
+    program.bind_declared("Dispatches", dispatches_);
+    program.bind_declared("search_starts", of_slots_.starts.texels);
+    program.bind_declared("search_sums", of_slots_.group_sums.texels);
+    program.bind_declared("walk_starts", of_searches_.starts.texels);
+    program.bind_declared("walk_sums", of_searches_.group_sums.texels);
+    program.bind_declared("hit_starts", of_leaf_pairs_.starts.texels);
+    program.bind_declared("hit_sums", of_leaf_pairs_.group_sums.texels);
+    searches_.bind(program, "Searches", "searches");
+    leaf_pairs_.bind(program, "LeafPairs", "leaf_pairs");
+    hits_.bind(program, "Hits", "hits");
 }
 
 void FindPairs::run_groups(const gl::Program& program, std::size_t groups) const {

@@ -41,6 +41,7 @@ void pass(PartEnd::Memory& memory, std::vector<float>& lost_for, Archive& archiv
     archive.array(memory.planes);
     archive.array(memory.energies);
     archive.array(memory.meetings);
+    archive.array(memory.pair_meetings);
     archive.array(lost_for);
 }
 

@@ -7,7 +7,6 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/implicit/step_buffers.h"
-#include "model/contact/contact_surface.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
@@ -24,7 +23,7 @@ struct PairCapacity {
 /// by the name of its block and that of its sampler in shaders/sim/implicit/.
 class PairBuffers {
 public:
-    PairBuffers(const Model& model, const ContactSurface& surface, const PairCapacity& wanted);
+    PairBuffers(const Model& model, const PairCapacity& wanted);
 
     /// Makes room for more; paths stay. What was bound has to be bound again.
     void grow(const PairCapacity& wanted);
@@ -43,8 +42,7 @@ public:
     StepBuffer<glm::vec4> motions;  ///< of objects, the mean of their nodes' paths [m]: Motions, motions
 
 private:
-    std::uint32_t object_count_, body_count_;
-    gl::TexelTable<float> thicknesses_;  // ContactSurface's [m]: thicknesses
+    std::uint32_t object_count_;
 };
 
 }  // namespace gelatin::gpu

@@ -141,25 +141,21 @@ void PartEnd::bind_buffers(const Model& model) const {
     for (const gl::Program* program : programs_.all()) {
         state_->bind(*program);
         system_->buffers().bind(*program);
-        const auto bind = [&](const char* name, const auto& buffer) {
-            if (program->declares(name)) program->bind(name, buffer);
-        };
-        bind("FinishSums", finish_sums_);
-        bind("EnergySums", energy_sums_);
-        bind("PartSums", part_sums_);
-        bind("GuardSums", guard_sums_);
-        bind("PressedSums", pressed_sums_);
-        bind("Meetings", meetings_);
-        bind("ObjectSums", object_sums_);
-        bind("IslandSums", island_sums_);
-        bind("RigidVelocities", rigid_velocities_.values);
-        bind("rigid_velocities", rigid_velocities_.texels);
-        bind("node_objects", node_objects_);
+        program->bind_declared("FinishSums", finish_sums_);
+        program->bind_declared("EnergySums", energy_sums_);
+        program->bind_declared("PartSums", part_sums_);
+        program->bind_declared("GuardSums", guard_sums_);
+        program->bind_declared("PressedSums", pressed_sums_);
+        program->bind_declared("Meetings", meetings_);
+        program->bind_declared("ObjectSums", object_sums_);
+        program->bind_declared("IslandSums", island_sums_);
+        rigid_velocities_.bind(*program, "RigidVelocities", "rigid_velocities");
+        program->bind_declared("node_objects", node_objects_);
         bind_contacts(*program);
-        bind("BodyEnergies", energies_);
-        bind("BodyChanges", changes_);
-        bind("springs", springs_);
-        bind("elements", elements_);
+        program->bind_declared("BodyEnergies", energies_);
+        program->bind_declared("BodyChanges", changes_);
+        program->bind_declared("springs", springs_);
+        program->bind_declared("elements", elements_);
         program->set("gravity", model.gravity);
         program->set("slow", static_cast<float>(slow));
         program->set("resting_speed", static_cast<float>(2.0 * slow));
@@ -174,14 +170,11 @@ void PartEnd::bind_buffers(const Model& model) const {
 }
 
 void PartEnd::bind_contacts(const gl::Program& program) const {
-    const auto bind = [&](const char* name, const auto& buffer) {
-        if (program.declares(name)) program.bind(name, buffer);
-    };
-    bind("kinds", kinds_);
-    bind("restitutions", restitutions_);
-    bind("Dispatches", pair_dispatch_);
-    bind("PairPresses", presses_);
-    bind("PairMeetings", pair_meetings_);
+    program.bind_declared("kinds", kinds_);
+    program.bind_declared("restitutions", restitutions_);
+    program.bind_declared("Dispatches", pair_dispatch_);
+    program.bind_declared("PairPresses", presses_);
+    program.bind_declared("PairMeetings", pair_meetings_);
     program.set("kind_count", kind_count_);
     program.set("meeting_capacity", meeting_capacity_);
 }

@@ -59,25 +59,19 @@ PartStart::PartStart(const Model& model, const StepState& state, const StepSyste
 
 // What never changes.
 void PartStart::bind_buffers() const {
-    const auto bind_if_declared = [](const gl::Program& program, const char* name, const auto& buffer) {
-        if (program.declares(name)) program.bind(name, buffer);
-    };
     for (const gl::Program* program : programs_.all()) {
         system_.buffers().bind(*program);
         state_.bind(*program);
-        bind_if_declared(*program, "positions", state_.from.position_texels);
-        bind_if_declared(*program, "velocities", state_.from.velocity_texels);
-        bind_if_declared(*program, "Velocities", state_.from.velocities);
-        bind_if_declared(*program, "wave_times", wave_times_);
-        bind_if_declared(*program, "PartSums", part_sums_.values);
-        bind_if_declared(*program, "part_sums", part_sums_.texels);
-        bind_if_declared(*program, "RowsOfChunks", chunk_rows_.values);
-        bind_if_declared(*program, "chunk_rows", chunk_rows_.texels);
-        bind_if_declared(*program, "RowsOfBodies", body_rows_.values);
-        bind_if_declared(*program, "body_rows", body_rows_.texels);
-        bind_if_declared(*program, "DampingTimes", damping_times_.values);
-        bind_if_declared(*program, "Energies", energies_.values);
-        bind_if_declared(*program, "ElasticForces", system_.elastic.forces());
+        program->bind_declared("positions", state_.from.position_texels);
+        program->bind_declared("velocities", state_.from.velocity_texels);
+        program->bind_declared("Velocities", state_.from.velocities);
+        program->bind_declared("wave_times", wave_times_);
+        part_sums_.bind(*program, "PartSums", "part_sums");
+        chunk_rows_.bind(*program, "RowsOfChunks", "chunk_rows");
+        body_rows_.bind(*program, "RowsOfBodies", "body_rows");
+        program->bind_declared("DampingTimes", damping_times_.values);
+        program->bind_declared("Energies", energies_.values);
+        program->bind_declared("ElasticForces", system_.elastic.forces());
         program->set("row_capacity", static_cast<std::uint32_t>(system_.capacity().rows));
         program->set("node_count", node_count_);
     }

@@ -91,79 +91,59 @@ void StepBuffers::set_rows(std::span<const StepRow> new_rows,
     rows.values.upload(tables.rows);
 }
 
-namespace {
-
-// A buffer to a block or a sampler, if the program has it.
-template <class T>
-void bind_block(const gl::Program& program, std::string_view name, const StepBuffer<T>& buffer) {
-    if (program.declares(name)) program.bind(name, buffer.values);
-}
-template <class Texels>
-void bind_texels(const gl::Program& program, std::string_view name, const Texels& texels) {
-    if (program.declares(name)) program.bind(name, texels);
-}
-template <class T>
-void bind_both(const gl::Program& program, std::string_view block, std::string_view sampler,
-               const StepBuffer<T>& buffer) {
-    bind_block(program, block, buffer);
-    bind_texels(program, sampler, buffer.texels);
-}
-
-}  // namespace
-
 void StepBuffers::bind(const gl::Program& program) const {
     program.set("chunk_count", chunk_count);
     program.set("object_count", object_count);
     program.set("small_chunks", small_chunks_);
-    bind_texels(program, "chunks", chunks_);
-    bind_texels(program, "chunk_starts", chunk_starts_);
-    bind_both(program, "Loads", "loads", loads);
-    bind_both(program, "Displacements", "displacements", displacements);
-    bind_both(program, "Steps", "steps", steps);
-    bind_both(program, "Residuals", "residuals", residuals);
-    bind_both(program, "Preconditioned", "preconditioned", preconditioned);
-    bind_both(program, "Products", "products", products);
-    bind_both(program, "Bases", "bases", bases);
-    bind_both(program, "Blocks", "blocks", blocks_);
-    bind_block(program, "Sums", sums_);
-    bind_block(program, "ProductSums", product_sums_);
-    bind_block(program, "StepSums", step_sums_);
-    bind_block(program, "Lacks", lacks_);
+    program.bind_declared("chunks", chunks_);
+    program.bind_declared("chunk_starts", chunk_starts_);
+    loads.bind(program, "Loads", "loads");
+    displacements.bind(program, "Displacements", "displacements");
+    steps.bind(program, "Steps", "steps");
+    residuals.bind(program, "Residuals", "residuals");
+    preconditioned.bind(program, "Preconditioned", "preconditioned");
+    products.bind(program, "Products", "products");
+    bases.bind(program, "Bases", "bases");
+    blocks_.bind(program, "Blocks", "blocks");
+    program.bind_declared("Sums", sums_.values);
+    program.bind_declared("ProductSums", product_sums_.values);
+    program.bind_declared("StepSums", step_sums_.values);
+    program.bind_declared("Lacks", lacks_.values);
     bind_bodies(program);
     bind_rows(program);
 }
 
 void StepBuffers::bind_bodies(const gl::Program& program) const {
-    bind_both(program, "Enough", "enough", enough);
-    bind_texels(program, "weights", weights_);
-    bind_block(program, "BodySums", body_sums_);
-    bind_both(program, "Bodies", "bodies", bodies_);
-    bind_both(program, "Inverses", "inverses", inverses_);
-    bind_both(program, "Vectors", "motions", vectors);  // motions are the first of them
-    bind_both(program, "BodyMotions", "body_motions", body_motions);
-    bind_block(program, "BodyForces", body_forces_);
-    bind_both(program, "BaseSums", "base_sums", base_sums);
-    bind_both(program, "States", "states", states);
-    bind_both(program, "Parts", "parts", parts_);
-    bind_both(program, "Islands", "islands", islands_);
-    bind_both(program, "IslandOfObject", "island_of_object", island_of_object_);
-    bind_texels(program, "island_bodies", island_bodies_.texels);
-    bind_texels(program, "island_chunks", island_chunks_.texels);
+    enough.bind(program, "Enough", "enough");
+    program.bind_declared("weights", weights_);
+    program.bind_declared("BodySums", body_sums_.values);
+    bodies_.bind(program, "Bodies", "bodies");
+    inverses_.bind(program, "Inverses", "inverses");
+    vectors.bind(program, "Vectors", "motions");  // motions are the first of them
+    body_motions.bind(program, "BodyMotions", "body_motions");
+    program.bind_declared("BodyForces", body_forces_.values);
+    base_sums.bind(program, "BaseSums", "base_sums");
+    states.bind(program, "States", "states");
+    parts_.bind(program, "Parts", "parts");
+    islands_.bind(program, "Islands", "islands");
+    island_of_object_.bind(program, "IslandOfObject", "island_of_object");
+    program.bind_declared("island_bodies", island_bodies_.texels);
+    program.bind_declared("island_chunks", island_chunks_.texels);
 }
 
 void StepBuffers::bind_rows(const gl::Program& program) const {
-    bind_block(program, "Rows", rows);
-    bind_both(program, "Slips", "slips", slips);
-    bind_both(program, "Arms", "arms", arms_);
-    bind_block(program, "RowSums", row_sums_);
-    bind_block(program, "PairSums", pair_sums_);
-    bind_both(program, "Tangents", "tangents", tangents_);
-    bind_both(program, "Pairs", "pairs", pairs_);
-    bind_both(program, "RowChunks", "row_chunks", row_chunks_);
-    bind_both(program, "CouplingStarts", "coupling_starts", coupling_starts_);
-    bind_both(program, "Couplings", "couplings", couplings_);
-    bind_both(program, "EntryStarts", "entry_starts", entry_starts_);
-    bind_both(program, "RowEntries", "row_entries", row_entries_);
+    program.bind_declared("Rows", rows.values);
+    slips.bind(program, "Slips", "slips");
+    arms_.bind(program, "Arms", "arms");
+    program.bind_declared("RowSums", row_sums_.values);
+    program.bind_declared("PairSums", pair_sums_.values);
+    tangents_.bind(program, "Tangents", "tangents");
+    pairs_.bind(program, "Pairs", "pairs");
+    row_chunks_.bind(program, "RowChunks", "row_chunks");
+    coupling_starts_.bind(program, "CouplingStarts", "coupling_starts");
+    couplings_.bind(program, "Couplings", "couplings");
+    entry_starts_.bind(program, "EntryStarts", "entry_starts");
+    row_entries_.bind(program, "RowEntries", "row_entries");
 }
 
 }  // namespace gelatin::gpu

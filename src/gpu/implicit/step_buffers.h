@@ -23,6 +23,12 @@ struct StepBuffer {
     StepBuffer(std::size_t size, gl::TexelFormat format)
         : values(std::vector<T>(std::max<std::size_t>(size, 1))), texels(values, format) {}
 
+    /// To a block and to a sampler, each if the program has it.
+    void bind(const gl::Program& program, std::string_view block, std::string_view sampler) const {
+        program.bind_declared(block, values);
+        program.bind_declared(sampler, texels);
+    }
+
     gl::Buffer<T> values;
     gl::BufferTexture texels;
 };

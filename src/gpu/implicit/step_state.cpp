@@ -24,23 +24,16 @@ StepState::StepState(const Model& model, const ContactSurface& surface)
 }
 
 void StepState::bind(const gl::Program& program) const {
-    const auto bind_block = [&](const char* name, const auto& buffer) {
-        if (program.declares(name)) program.bind(name, buffer);
-    };
-    const auto bind_both = [&](const char* block, const char* sampler, const auto& buffer) {
-        bind_block(block, buffer.values);
-        bind_block(sampler, buffer.texels);
-    };
-    bind_block("Clock", clock);
-    bind_both("Paces", "paces", paces);
-    bind_both("Goals", "goals", goals);
-    bind_both("Predicted", "predicted", predicted);
-    bind_both("Accelerations", "accelerations", accelerations);
-    bind_block("PlaneMemories", plane_memories);
-    bind_block("PlaneNotes", plane_notes);
-    bind_block("node_stiffness", stiffness_);
-    bind_block("thicknesses", thicknesses_);
-    bind_block("masses", masses_);
+    program.bind_declared("Clock", clock);
+    paces.bind(program, "Paces", "paces");
+    goals.bind(program, "Goals", "goals");
+    predicted.bind(program, "Predicted", "predicted");
+    accelerations.bind(program, "Accelerations", "accelerations");
+    program.bind_declared("PlaneMemories", plane_memories);
+    program.bind_declared("PlaneNotes", plane_notes);
+    program.bind_declared("node_stiffness", stiffness_);
+    program.bind_declared("thicknesses", thicknesses_);
+    program.bind_declared("masses", masses_);
     program.set("body_count", body_count_);
     program.set("body_nodes", body_nodes_);
 }

@@ -9,7 +9,7 @@ namespace gelatin::gpu {
 namespace {
 
 void bind_positions(const gl::Program& program, const NodeBuffers& at) {
-    if (program.declares("positions")) program.bind("positions", at.position_texels);
+    program.bind_declared("positions", at.position_texels);
 }
 
 }  // namespace

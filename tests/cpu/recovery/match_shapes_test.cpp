@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "cpu/implicit/system_solver.h"
 #include "support/lost_shapes.h"
@@ -135,6 +136,25 @@ TEST(ShapeMatcher, WaitsUnlessNodesWereSetFromOutside) {
     EXPECT_FALSE(matches(lost));
     matcher.forget();
     EXPECT_TRUE(matches(lost));
+}
+
+TEST(ShapeMatcher, GoesOnFromACheckpoint) {
+    const auto model = std::make_shared<const Model>(test::make_bodies_to_lose());
+    const cpu::Nodes<double> lost = in_double(test::lose_shapes(*model, true));
+    cpu::ShapeMatcher<double> matcher(model), other(model);
+    const auto matches = [](cpu::ShapeMatcher<double>& with, cpu::Nodes<double> nodes, double elapsed) {
+        return !with.run(nodes, elapsed).empty();
+    };
+    EXPECT_FALSE(matches(matcher, in_double({model->positions, model->velocities}), 0.1));
+    EXPECT_FALSE(matches(matcher, lost, 0.4));
+    std::string bytes;
+    Archive written = Archive::that_writes(bytes);
+    matcher.archive(written);
+    Archive read = Archive::that_reads(bytes);
+    other.archive(read);
+    EXPECT_TRUE(read.is_complete());
+    EXPECT_FALSE(matches(other, lost, 0.05));
+    EXPECT_TRUE(matches(other, lost, 0.1));
 }
 
 // A soft block that comes down so hard that it seems to be lost is left to its elements.

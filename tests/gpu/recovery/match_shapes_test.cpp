@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu/node_buffers.h"
 #include "gpu/support/solver_scenarios.h"
 #include "model/recovery/match_shapes.h"
 #include "support/gl_fixture.h"
@@ -51,6 +52,25 @@ TEST_F(ShapeMatcherOnGpuTest, WaitsUnlessNodesWereSetFromOutside) {
     EXPECT_TRUE(is_matched(0));
     for (std::size_t k = 0; k + 1 < steps; ++k) EXPECT_FALSE(is_matched(2 + k)) << k;
     EXPECT_TRUE(is_matched(steps + 3));
+}
+
+TEST_F(ShapeMatcherOnGpuTest, GoesOnFromACheckpoint) {
+    const Model model = test::make_bodies_to_lose();
+    const cpu::Nodes<float> lost = test::lose_shapes(model, true);
+    const auto matches = [&](gpu::ShapeMatcher& matcher, const cpu::Nodes<float>& nodes, double elapsed) {
+        const gpu::NodeBuffers buffers(nodes.positions, nodes.velocities);
+        matcher.run(buffers, elapsed);
+        std::vector<glm::vec4> positions(nodes.positions.size());
+        gl::barrier(gl::Barrier::buffer_update);
+        buffers.positions.download(positions);
+        return positions != nodes.positions;
+    };
+    gpu::ShapeMatcher matcher(model), other(model);
+    EXPECT_FALSE(matches(matcher, {model.positions, model.velocities}, 0.1));
+    EXPECT_FALSE(matches(matcher, lost, 0.4));
+    other.set_lost_for(matcher.lost_for());
+    EXPECT_FALSE(matches(other, lost, 0.05));
+    EXPECT_TRUE(matches(other, lost, 0.1));
 }
 
 }  // namespace

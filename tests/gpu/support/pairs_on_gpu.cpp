@@ -37,7 +37,7 @@ PairsOnGpu::PairsOnGpu(const PairCase& at)
       buffers_(model_),
       surface_(make_contact_surface(model_, {})),
       state_(model_, surface_),
-      pairs_(model_, surface_, gpu::PairCapacity::of(model_)),
+      pairs_(model_, gpu::PairCapacity::of(model_)),
       find_(model_, surface_, state_, pairs_, at.own) {
     state_.from.positions.upload(begins_of(at));
     std::vector<glm::vec4> predicted;
