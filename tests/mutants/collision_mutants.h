@@ -10,7 +10,7 @@ inline constexpr Mutant kCollisionMutants[] = {
      "index + 1u >= node_count"},
     {"a_box_forgets_a_corner", "sim/collision/update_boxes.comp", "max(a, max(b, c))", "max(a, b)"},
     {"a_walk_skips_too_far", "sim/collision/walk_trees.comp", "near ? n + 1u : node.x", "node.x"},
-    {"boxes_meet_along_two_axes", "sim/collision/dispatches.glsl", "all(lessThanEqual(min_b, max_a))",
+    {"boxes_meet_along_two_axes", "sim/collision/bounds.glsl", "all(lessThanEqual(min_b, max_a))",
      "min_b.x <= max_a.x"},
     {"a_pair_is_seen_from_one_side", "sim/collision/object_may_touch.glsl", "a != b", "a < b"},
     {"rows_overlap", "sim/collision/scan_pair_rows.comp", "PairRow(at.x,", "PairRow(max(at.x, 1u) - 1u,"},

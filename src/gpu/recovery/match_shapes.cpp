@@ -72,7 +72,6 @@ void ShapeMatcher::forget() {
 
 std::vector<float> ShapeMatcher::lost_for() const {
     std::vector<float> times(lost_for_.size());
-    gl::barrier(gl::Barrier::buffer_update);
     lost_for_.download(times);
     return times;
 }

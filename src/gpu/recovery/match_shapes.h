@@ -21,7 +21,8 @@ public:
     /// Ends with the barrier that whoever gathers the nodes as textures or storage needs.
     void run(const NodeBuffers& nodes, double elapsed);
 
-    /// How long each object has seemed to be lost [s]; for checkpoints. Block until the device has ended.
+    /// How long each object has seemed to be lost [s]; for checkpoints. Blocks until the device has ended.
+    /// @pre barrier(buffer_update) since the last run
     std::vector<float> lost_for() const;
     void set_lost_for(std::span<const float> times) { lost_for_.upload(times); }
     /// Nodes were set from outside.
