@@ -55,7 +55,8 @@ float work_on_row(StepRow row, vec3 s, float limit, uvec2 sides) {
     for (int k = 0; k < 4; ++k)
         if (row.weights[k] != 0.0 && texelFetch(positions, int(nodes[k])).w == 0.0)
             moved += row.weights[k] * texelFetch(displacements, int(nodes[k])).xyz;
-    if (!has_plane(row)) moved += clock[0].step * (texelFetch(node_objects, int(sides.y)).xyz - texelFetch(node_objects, int(sides.x)).xyz);
+    vec3 belts = texelFetch(node_objects, int(sides.y)).xyz - texelFetch(node_objects, int(sides.x)).xyz;
+    if (!has_plane(row)) moved += clock[0].step * belts;
     return moved != vec3(0.0) ? -dot(force_at(row, s, limit), moved) : 0.0;
 }
 

@@ -123,7 +123,8 @@ public:
         end_.begin_step(buffers_);
         std::vector<Outcome> outcomes;
         for (const PartChange& part : at_.parts) {
-            if (part.sets_velocities || part.thrown != glm::dvec3(0.0)) set_velocities(part, random);
+            if (part.sets_velocities) set_velocities(random);
+            reference_.is_apart = part.is_apart;
             if (part.strikes) reference_.paces.struck()[0] = 1;
             if (part.forgets || part.goes_on) forget(part.goes_on, random);
             reference_.begin();
@@ -175,14 +176,9 @@ private:
         reference_.pulls = &pulls_;
     }
 
-    void set_velocities(const PartChange& part, RandomMaker& random) {
-        const Range& last = model_.objects[model_.body_count() - 1].nodes;
-        for (std::uint32_t n = 0; n < model_.body_node_count(); ++n) {
-            if (part.sets_velocities)
-                reference_.from.velocities[n] += glm::dvec4(glm::vec4(random.point(0.1), 0.0));
-            if (n >= last.first) reference_.from.velocities[n] += glm::dvec4(part.thrown, 0.0);
-            reference_.from.velocities[n] = glm::dvec4(glm::vec4(reference_.from.velocities[n]));
-        }
+    void set_velocities(RandomMaker& random) {
+        for (std::size_t n = 0; n < reference_.from.velocities.size(); ++n)
+            reference_.from.velocities[n] += glm::dvec4(glm::vec4(random.point(0.1), 0.0));
         reference_.energy.change();
         gl::barrier(gl::Barrier::buffer_update);
         state_.from.velocities.upload(as_floats(reference_.from.velocities));

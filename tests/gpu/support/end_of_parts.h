@@ -22,7 +22,7 @@ struct PartChange {
     bool sets_velocities = false;   ///< before it, from outside
     bool forgets = false;           ///< before it
     bool goes_on = false;           ///< before it, with velocities of before
-    glm::dvec3 thrown{0.0};         ///< before it, what the last body's velocity changes by [m/s]
+    bool is_apart = false;          ///< no object touches another in it
     bool strikes = false;           ///< before it, the first body
 };
 

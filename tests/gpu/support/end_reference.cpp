@@ -55,8 +55,9 @@ void EndReference::find_rows() {
         pairs_.begin(paths, true, asleep_);
         pairs_.run(paths);
     }
-    rows.make({from.positions, expected_, compliances_, slacks_, h, scheme.last_step()}, pairs_.pairs(),
-              system.rows);
+    std::span<const cpu::NearPair<double>> near = pairs_.pairs();
+    if (is_apart) near = {};
+    rows.make({from.positions, expected_, compliances_, slacks_, h, scheme.last_step()}, near, system.rows);
     system.rows.insert(system.rows.end(), own_rows.begin(), own_rows.end());
 }
 

@@ -175,8 +175,7 @@ Scenarios island_scenarios() {
         [] { return EndCase{.model = meeting_blocks(), .parts = parts(4), .island = 2, .own_rows = 6}; });
     add("an_island_falls_apart", [] {
         EndCase at{.model = meeting_blocks(), .parts = parts(7), .island = 2, .is_torn = true};
-        at.parts[3].thrown = {0.0, 6.0, 0.0};
-        at.parts[5].strikes = true;
+        at.parts[3].is_apart = at.parts[3].strikes = true;
         return at;
     });
     for (const double restitution : {0.5, 1.0})
