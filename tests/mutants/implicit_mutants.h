@@ -195,7 +195,7 @@ inline constexpr Mutant kPartStartMutants[] = {
      "gravity"},
     {"the_first_chunk_alone_is_enough", "sim/implicit/find_enough.comp", "c < end; c += kLanes",
      "c < end && c == 0u; c += kLanes"},
-    {"rotations_are_those_of_the_first_chunk", "sim/implicit/follow_rotation.comp", "c < end; c += 64u",
+    {"rotations_are_those_of_the_first_chunk", "sim/implicit/sum_of_motions.glsl", "c < end; c += 64u",
      "c + 1u < end; c += 64u"},
     {"bodies_grow_as_they_turn", "sim/implicit/follow_rotation.comp", "d -= 0.5 *", "d -= 0.0 *"},
     {"forces_do_not_turn", "sim/implicit/follow_rotation.comp", "f + cross(w, f) +", "f +"},
