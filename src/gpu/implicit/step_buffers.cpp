@@ -70,6 +70,31 @@ StepBuffers::StepBuffers(const Model& model, const RowCapacity& capacity, std::u
     pair_sums_ = {kPairSums * capacity.pairs, rgba32f};
 }
 
+RowTables StepBuffers::tables() const {
+    gl::barrier(gl::Barrier::buffer_update);
+    const auto read = [](const auto& buffer, auto& values) {
+        values.resize(buffer.values.size());
+        buffer.values.download(values);
+    };
+    RowTables tables;
+    read(rows, tables.rows);
+    read(islands_, tables.islands);
+    read(island_of_object_, tables.island_of_object);
+    read(island_bodies_, tables.island_bodies);
+    read(island_chunks_, tables.island_chunks);
+    read(pairs_, tables.pairs);
+    read(row_chunks_, tables.row_chunks);
+    read(coupling_starts_, tables.coupling_starts);
+    read(couplings_, tables.couplings);
+    read(entry_starts_, tables.entry_starts);
+    read(row_entries_, tables.row_entries);
+    return tables;
+}
+
+void StepBuffers::unite_islands() {
+    has_large_islands_ = chunk_count > small_chunks_;
+}
+
 void StepBuffers::set_rows(std::span<const StepRow> new_rows,
                            std::span<const std::uint32_t> islands_of_bodies) {
     const RowTables tables = make_row_tables(sizes_, new_rows, islands_of_bodies);
@@ -147,8 +172,8 @@ void StepBuffers::bind_bodies(const gl::Program& program) const {
     bind_both(program, "Parts", "parts", parts_);
     bind_both(program, "Islands", "islands", islands_);
     bind_both(program, "IslandOfObject", "island_of_object", island_of_object_);
-    bind_texels(program, "island_bodies", island_bodies_.texels);
-    bind_texels(program, "island_chunks", island_chunks_.texels);
+    bind_both(program, "IslandBodies", "island_bodies", island_bodies_);
+    bind_both(program, "IslandChunks", "island_chunks", island_chunks_);
 }
 
 void StepBuffers::bind_rows(const gl::Program& program) const {
