@@ -1,4 +1,5 @@
 // CPU twin: gelatin::cpu::Islands::find.
+#include "layouts/step_state.glsl"
 
 // How what nothing holds moves on as a whole, and what handles carry, if nothing else holds it; 0 of others [m/s]; w: mass [kg].
 vec4 common_motion(StartSums sums, bool is_driven) {

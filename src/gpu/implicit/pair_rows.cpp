@@ -164,7 +164,7 @@ void PairRows::run(const gl::Program& program, std::size_t groups) const {
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-void PairRows::weigh(const ModelBuffers& model) const {
+void PairRows::weigh(const ModelBuffers& model) {
     programs_.weigh.bind("faces", model.face_texels);
     gl::barrier(gl::Barrier::buffer_update);
     entry_counts_.fill(0);

@@ -29,7 +29,7 @@ public:
     /// @name Stages of PartStart::run
     /// Each ends with the barrier for who reads what it has made.
     /// @{
-    void weigh(const ModelBuffers& model) const;  ///< which pairs have rows
+    void weigh(const ModelBuffers& model);  ///< which pairs have rows
     /// Where rows go, when planes are counted, too, and those of pairs. Or the try is given up.
     /// @param has_forces whether loads or hands act
     void place(bool has_forces) const;
@@ -87,7 +87,7 @@ private:
     StepBuffer<StartSums> body_starts_;
     StepBuffer<std::uint32_t> labels_;  // of each body the least one of its island
     StepBuffer<std::uint32_t> chunk_entries_;
-    mutable gl::Buffer<std::uint32_t> entry_counts_;  // of nodes; then where the next one goes
+    gl::Buffer<std::uint32_t> entry_counts_;  // of nodes; then where the next one goes
     gl::Buffer<RowMemory> row_notes_;
     StepBuffer<std::uint32_t> known_starts_, known_entries_;  // of the last part that was made
     StepBuffer<RowMemory> known_rows_;

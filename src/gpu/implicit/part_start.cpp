@@ -43,8 +43,7 @@ std::vector<const gl::Program*> PartStart::Programs::all() const {
     return all;
 }
 
-PartStart::PartStart(const Model& model, const StepState& state, const StepSystem& system,
-                     const PairRows* pairs)
+PartStart::PartStart(const Model& model, const StepState& state, const StepSystem& system, PairRows* pairs)
     : state_(state),
       system_(system),
       pairs_(pairs),

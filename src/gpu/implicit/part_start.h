@@ -24,7 +24,7 @@ public:
     /// @param pairs those of bodies that touch each other; null: they do not
     /// @pre the system's capacity has a pair for each body, or there are no colliders
     PartStart(const Model& model, const StepState& state, const StepSystem& system,
-              const PairRows* pairs = nullptr);
+              PairRows* pairs = nullptr);
 
     /// Once, when velocities of held nodes take them to where handles want them. @param size of the step [s]
     /// @param divides whether it is divided where bodies touch others
@@ -53,7 +53,7 @@ private:
 
     const StepState& state_;
     const StepSystem& system_;
-    const PairRows* pairs_;
+    PairRows* pairs_;
     std::uint32_t node_count_, body_count_, chunk_count_;
     [[maybe_unused]] bool has_loads_;
     Programs programs_;

@@ -306,7 +306,7 @@ double guard_island_error(const StartCase& at) {
     return error_if(downloaded(labels) != least);
 }
 
-constexpr float kPart = 1.0f / 240.0f;
+constexpr float kQuarterFrame = 1.0f / 240.0f;
 
 ColliderDescription plane_at(double height) {
     ColliderDescription plane;
@@ -418,7 +418,7 @@ Scenarios pair_rows_scenarios() {
         scenarios.push_back({name, [=] { return error(with_pairs(make(), at)); }});
     };
     const auto stack = [] { return make_stack(); };
-    const StartCase known{.last_step = 0.9f * kPart, .has_memory = true};
+    const StartCase known{.last_step = 0.9f * kQuarterFrame, .has_memory = true};
     // Those that find most errors come first.
     add("known_contacts_of_a_stack", stack, known, start_error);
     add("tables_of_a_stack", stack, known, table_error);
@@ -432,19 +432,24 @@ Scenarios pair_rows_scenarios() {
     add("many", make_many, {}, start_error);
     add("first_part", stack, {}, start_error);
     add("still_bodies_are_damped", stack,
-        {.last_step = kPart, .has_memory = true, .paces = {2, 2, 2, 2, 2, 2}}, start_error);
-    add("islands_of_different_paces", stack, {.last_step = kPart, .paces = {2, 2, 2, 1, 2, 0}}, start_error);
-    add("struck", stack, {.last_step = kPart, .struck = {0, 0, 0, 1, 0, 0}}, start_error);
-    add("divided", stack, {.size = 4.0f * kPart, .divides = true, .last_step = kPart}, start_error);
+        {.last_step = kQuarterFrame, .has_memory = true, .paces = {2, 2, 2, 2, 2, 2}}, start_error);
+    add("islands_of_different_paces", stack, {.last_step = kQuarterFrame, .paces = {2, 2, 2, 1, 2, 0}},
+        start_error);
+    add("struck", stack, {.last_step = kQuarterFrame, .struck = {0, 0, 0, 1, 0, 0}}, start_error);
+    add("divided", stack, {.size = 4.0f * kQuarterFrame, .divides = true, .last_step = kQuarterFrame},
+        start_error);
     add("divided_in_two", stack,
-        {.size = 4.0f * kPart, .divides = true, .last_step = kPart, .paces = {1, 1, 1, 1, 1, 2}},
+        {.size = 4.0f * kQuarterFrame,
+         .divides = true,
+         .last_step = kQuarterFrame,
+         .paces = {1, 1, 1, 1, 1, 2}},
         start_error);
     add(
-        "too_deep", [] { return make_stack(-20.0); }, {.size = 4.0f * kPart, .last_step = kPart},
-        start_error);
+        "too_deep", [] { return make_stack(-20.0); },
+        {.size = 4.0f * kQuarterFrame, .last_step = kQuarterFrame}, start_error);
     add(
-        "too_fast", [] { return make_stack(-150.0); }, {.size = 4.0f * kPart, .last_step = kPart},
-        start_error);
+        "too_fast", [] { return make_stack(-150.0); },
+        {.size = 4.0f * kQuarterFrame, .last_step = kQuarterFrame}, start_error);
     add("repeats", stack, known, repeat_error);
     add("guard_islands", make_belt, {}, guard_island_error);
     add("guard_islands_of_many", make_many, {}, guard_island_error);
@@ -455,7 +460,7 @@ Scenarios pair_rows_scenarios() {
 }
 
 void run_pair_rows() {
-    const StartCase at = with_pairs(make_belt(), {.last_step = 0.9f * kPart, .has_memory = true});
+    const StartCase at = with_pairs(make_belt(), {.last_step = 0.9f * kQuarterFrame, .has_memory = true});
     memory_error(at);
     guard_island_error(at);
 }
