@@ -24,6 +24,7 @@ using glm::vec4;
 #include "layouts/load.glsl"
 #include "layouts/near_pair.glsl"
 #include "layouts/object_pair.glsl"
+#include "layouts/pair_rows.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
 #include "layouts/shape_match.glsl"
@@ -41,6 +42,8 @@ using glm::vec4;
 static_assert(sizeof(AffineFit) == 80);
 static_assert(sizeof(Alarm) == 16);
 static_assert(sizeof(ApproachSums) == 32);
+static_assert(sizeof(BodyPlace) == 16);
+static_assert(sizeof(BodyTouch) == 32);
 static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(BodyChange) == 64);
 static_assert(sizeof(BodyEnergy) == 40);
@@ -77,6 +80,7 @@ static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairCounts) == 32);
 static_assert(sizeof(PairRow) == 16);
 static_assert(sizeof(PairSlot) == 16);
+static_assert(sizeof(PairWeight) == 32);
 static_assert(sizeof(Proximity) == 48);
 static_assert(sizeof(PlaneMemory) == 32);
 static_assert(sizeof(ProximityCounts) == 16);
@@ -84,9 +88,11 @@ static_assert(sizeof(ResidualSums) == 32);
 static_assert(sizeof(RestMoment) == 48);
 static_assert(sizeof(RestShape) == 48);
 static_assert(sizeof(RowMemory) == 32);
+static_assert(sizeof(RowPlace) == 16);
 static_assert(sizeof(ShapePlace) == 96);
 static_assert(sizeof(ShapeSums) == 80);
 static_assert(sizeof(SkinPoint) == 32);
+static_assert(sizeof(SlotRows) == 16);
 static_assert(sizeof(SolveState) == 32);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(StepBody) == 80);
@@ -113,7 +119,9 @@ using layouts::BodyEnergy;
 using layouts::BodyInverse;
 using layouts::BodyMotion;
 using layouts::BodyPace;
+using layouts::BodyPlace;
 using layouts::BodyRows;
+using layouts::BodyTouch;
 using layouts::BoundingBox;
 using layouts::Box;
 using layouts::Chunk;
@@ -144,6 +152,7 @@ using layouts::ObjectPair;
 using layouts::PairCounts;
 using layouts::PairRow;
 using layouts::PairSlot;
+using layouts::PairWeight;
 using layouts::PlaneMemory;
 using layouts::Proximity;
 using layouts::ProximityCounts;
@@ -151,9 +160,11 @@ using layouts::ResidualSums;
 using layouts::RestMoment;
 using layouts::RestShape;
 using layouts::RowMemory;
+using layouts::RowPlace;
 using layouts::ShapePlace;
 using layouts::ShapeSums;
 using layouts::SkinPoint;
+using layouts::SlotRows;
 using layouts::SolveState;
 using layouts::Spring;
 using layouts::StartSums;

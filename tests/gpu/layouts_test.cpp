@@ -178,6 +178,26 @@ TEST_F(LayoutsTest, NearPairs) {
            FIELD(RowMemory, is_edges)});
 }
 
+TEST_F(LayoutsTest, PairRows) {
+    check("pair_rows.glsl", "PairWeight", sizeof(PairWeight),
+          {FIELD(PairWeight, stiffness), FIELD(PairWeight, reach), FIELD(PairWeight, known_reach),
+           FIELD(PairWeight, there), FIELD(PairWeight, memory), FIELD(PairWeight, place),
+           FIELD(PairWeight, unused_0), FIELD(PairWeight, unused_1)});
+    check(
+        "pair_rows.glsl", "SlotRows", sizeof(SlotRows),
+        {FIELD(SlotRows, count), FIELD(SlotRows, twin), FIELD(SlotRows, nearest), FIELD(SlotRows, deepest)});
+    check("pair_rows.glsl", "RowPlace", sizeof(RowPlace),
+          {FIELD(RowPlace, first_row), FIELD(RowPlace, row_end), FIELD(RowPlace, first_chunk),
+           FIELD(RowPlace, pair)});
+    check("pair_rows.glsl", "BodyTouch", sizeof(BodyTouch),
+          {FIELD(BodyTouch, rows), FIELD(BodyTouch, pairs), FIELD(BodyTouch, row_chunks),
+           FIELD(BodyTouch, couplings), FIELD(BodyTouch, plane_rows), FIELD(BodyTouch, is_driven),
+           FIELD(BodyTouch, deepest), FIELD(BodyTouch, unused)});
+    check("pair_rows.glsl", "BodyPlace", sizeof(BodyPlace),
+          {FIELD(BodyPlace, row), FIELD(BodyPlace, pair), FIELD(BodyPlace, row_chunk),
+           FIELD(BodyPlace, node_chunk)});
+}
+
 TEST_F(LayoutsTest, Draw) {
     check("draw.glsl", "Draw", sizeof(Draw),
           {FIELD(Draw, count), FIELD(Draw, instance_count), FIELD(Draw, first), FIELD(Draw, first_instance)});

@@ -9,6 +9,7 @@
 #include "gpu/support/collision_scenarios.h"
 #include "gpu/support/implicit_scenarios.h"
 #include "gpu/support/pair_scenarios.h"
+#include "gpu/support/pair_rows_scenarios.h"
 #include "gpu/support/part_end_scenarios.h"
 #include "gpu/support/part_start_scenarios.h"
 #include "gpu/support/solver_scenarios.h"
@@ -46,6 +47,8 @@ INSTANTIATE_TEST_SUITE_P(PartStarts, MutantsLong,
                          ::testing::ValuesIn(cases(kPartStartMutants, part_start_scenarios())), name_of_case);
 INSTANTIATE_TEST_SUITE_P(FindPairs, MutantsLong,
                          ::testing::ValuesIn(cases(kFindPairsMutants, pair_scenarios())), name_of_case);
+INSTANTIATE_TEST_SUITE_P(PairRows, MutantsLong,
+                         ::testing::ValuesIn(cases(kPairRowMutants, pair_rows_scenarios())), name_of_case);
 INSTANTIATE_TEST_SUITE_P(PartEnds, MutantsLong,
                          ::testing::ValuesIn(cases(kPartEndMutants, part_end_scenarios())), name_of_case);
 

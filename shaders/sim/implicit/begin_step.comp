@@ -26,6 +26,7 @@ void begin_clock() {
     now.made = 0u;
     now.begun = 0u;
     now.dropped_rows = 0u;
+    now.guards = 0u;
     clock[0] = now;
 }
 

@@ -7,8 +7,8 @@ layout(std430) buffer Clock { StepClock clock[]; };
 
 void main() {
     StepClock now = clock[0];
-    now.goes_on = now.is_over == 0u ? 1u : 0u;
-    if (now.is_over == 0u) {
+    now.goes_on = now.is_over == 0u && now.is_full == 0u ? 1u : 0u;
+    if (now.goes_on != 0u) {
         ++now.tries;
         if (now.begun == now.made) now.step = min(now.left, now.longest);  // else it is as the try before has left it
         now.begun = now.made + 1u;

@@ -7,10 +7,9 @@ const uint kLanes = 256u;
 #include "layouts/step_rows.glsl"
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/group_sums.glsl"
-#include "sim/implicit/part_length.glsl"
+#include "sim/implicit/part_choices.glsl"
 layout(local_size_x = 256) in;
 
-const uint kMoving = 0u, kCalm = 1u, kStill = 2u;  // as in cpu::Paces
 uniform usamplerBuffer chunk_starts;  // of each object, and the end
 uniform usamplerBuffer body_rows;     // BodyRows, a texel each
 uniform samplerBuffer wave_times;     // of bodies [s]
@@ -32,8 +31,7 @@ uint count_parts() {
     float parts = float(kPartsOfStill);
     for (uint o = gl_LocalInvocationID.x; o < body_count; o += kLanes) {
         if (rows_of(o) == 0u) continue;
-        uint pace = paces[o].pace;
-        parts = max(parts, float(pace == kMoving ? kPartsOfMoving : pace == kCalm ? kPartsOfCalm : kPartsOfStill));
+        parts = max(parts, float(parts_of(paces[o].pace)));
     }
     return uint(max_over_group(parts));
 }
@@ -48,10 +46,9 @@ float find_deepest() {
 // @return whether it is not Euler's
 bool choose_scheme(uint o, StepClock now) {
     bool touches = rows_of(o) > 0u, resolves = texelFetch(wave_times, int(o)).x > now.step;
-    bool has_past = now.damps == 0u && !is_shortest(now) && now.last_step > 0.0;
-    bool goes_on = has_past && paces[o].pace == kMoving && paces[o].is_struck == 0u && (!touches || resolves);
+    bool goes_on = has_past_scheme(now, paces[o].pace, paces[o].is_struck != 0u, touches, resolves);
     paces[o].past = goes_on ? 1.0 : 0.0;
-    paces[o].damping = !goes_on && paces[o].pace == kStill ? kRestingTime : 0.0;
+    paces[o].damping = least_damping(goes_on, paces[o].pace);
     return goes_on;
 }
 
@@ -98,16 +95,7 @@ void number_islands(bool goes_on) {
 void main() {
     StepClock now = clock[0];
     if (now.goes_on != 0u) {
-        now.parts = count_parts();
-        float step = shortened(now, now.parts);
-        if (step != now.step) {
-            now.step = step;
-            now.goes_on = 0u;
-        } else if (find_deepest() > kDeepest && !is_shortest(now)) {
-            now.step *= 0.5;
-            now.damps = 0u;
-            now.goes_on = 0u;
-        }
+        now = with_length(now, count_parts(), find_deepest());
         bool any_past = false;
         if (now.goes_on != 0u) {
             for (uint o = gl_LocalInvocationID.x; o < body_count; o += kLanes)

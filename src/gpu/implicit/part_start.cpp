@@ -12,41 +12,46 @@ std::vector<float> wave_times_of(const Model& model) {
     return {times.begin(), times.end()};
 }
 
+gl::Defines pair_defines(bool has_pairs) {
+    return has_pairs ? gl::Defines{"PAIRS"} : gl::Defines{};
+}
+
 }  // namespace
 
-PartStart::Programs::Programs(const Model& model, bool rows)
+PartStart::Programs::Programs(const Model& model, bool planes, bool has_pairs)
     : begin_step(gl::Program::compute("sim/implicit/begin_step.comp")),
       begin_try(gl::Program::compute("sim/implicit/begin_try.comp")),
       predict(gl::Program::compute("sim/implicit/predict.comp", SumLoads::defines(model))),
-      sum_bodies(gl::Program::compute("sim/implicit/sum_bodies.comp")),
-      place_rows(gl::Program::compute("sim/implicit/place_rows.comp")),
+      sum_bodies(gl::Program::compute("sim/implicit/sum_bodies.comp", pair_defines(has_pairs))),
       find_targets(gl::Program::compute("sim/implicit/find_targets.comp", SumLoads::defines(model))),
       find_enough(gl::Program::compute("sim/implicit/find_enough.comp")),
       sum_motions(gl::Program::compute("sim/implicit/sum_motions.comp")),
       follow_rotation(gl::Program::compute("sim/implicit/follow_rotation.comp")),
-      has_rows(rows) {
-    if (!rows) return;
-    const gl::Defines kinds = ModelBuffers::collider_defines(model);
+      has_planes(planes) {
+    if (!has_pairs) place_rows = gl::Program::compute("sim/implicit/place_rows.comp");
+    if (!planes) return;
+    gl::Defines kinds = ModelBuffers::collider_defines(model);
     count_rows = gl::Program::compute("sim/implicit/count_rows.comp", kinds);
+    if (has_pairs) kinds.emplace_back("PAIRS");
     make_rows = gl::Program::compute("sim/implicit/make_rows.comp", kinds);
 }
 
 std::vector<const gl::Program*> PartStart::Programs::all() const {
-    std::vector<const gl::Program*> all = {&begin_step,  &begin_try,   &predict,
-                                           &sum_bodies,  &place_rows,  &find_targets,
-                                           &find_enough, &sum_motions, &follow_rotation};
-    if (has_rows) all.insert(all.end(), {&count_rows, &make_rows});
+    std::vector<const gl::Program*> all = {&begin_step,   &begin_try,   &predict,     &sum_bodies,
+                                           &find_targets, &find_enough, &sum_motions, &follow_rotation};
+    if (has_planes) all.insert(all.end(), {&count_rows, &make_rows});
     return all;
 }
 
-PartStart::PartStart(const Model& model, const StepState& state, const StepSystem& system)
+PartStart::PartStart(const Model& model, const StepState& state, const StepSystem& system, PairRows* pairs)
     : state_(state),
       system_(system),
+      pairs_(pairs),
       node_count_(model.node_count()),
       body_count_(static_cast<std::uint32_t>(model.body_count())),
       chunk_count_(system.buffers().chunk_count),
       has_loads_(!model.loads.empty()),
-      programs_(model, system.capacity().rows > 0),
+      programs_(model, !model.colliders.empty(), pairs != nullptr),
       wave_times_(wave_times_of(model), gl::TexelFormat::r32f),
       part_sums_(chunk_count_, gl::TexelFormat::rgba32f),
       chunk_rows_(chunk_count_, gl::TexelFormat::rgba32ui),
@@ -54,12 +59,21 @@ PartStart::PartStart(const Model& model, const StepState& state, const StepSyste
       damping_times_(node_count_, gl::TexelFormat::r32f),
       energies_(chunk_count_, gl::TexelFormat::r32f) {
     assert(system.capacity().rows > 0 ? system.capacity().pairs >= body_count_ : model.colliders.empty());
+    assert(pairs == nullptr || system.capacity().rows > 0);
     bind_buffers();
 }
 
 // What never changes.
 void PartStart::bind_buffers() const {
-    for (const gl::Program* program : programs_.all()) {
+    std::vector<const gl::Program*> all = programs_.all();
+    if (pairs_ != nullptr) {
+        for (const gl::Program* program : all) pairs_->bind(*program);
+        const std::vector<const gl::Program*> of_pairs = pairs_->programs();
+        all.insert(all.end(), of_pairs.begin(), of_pairs.end());
+    } else {
+        all.push_back(&programs_.place_rows);
+    }
+    for (const gl::Program* program : all) {
         system_.buffers().bind(*program);
         state_.bind(*program);
         program->bind_declared("positions", state_.from.position_texels);
@@ -89,17 +103,29 @@ void PartStart::begin_step(double size, bool divides) const {
 }
 
 void PartStart::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
-    assert((loads != nullptr) == has_loads_);
-    const Programs& p = programs_;
-    for (const gl::Program* program : {&p.predict, &p.find_targets}) {
-        if (loads != nullptr) loads->bind(*program);
-        program->set("gravity", model.gravity);
-    }
-    model.pulls.bind(p.find_targets);
-    p.sum_bodies.set("has_forces", loads != nullptr || model.pulls.is_acting() ? 1u : 0u);
     {
         const TimedStage part(timer, "advance_nodes.detect");
-        find_rows(model);
+        predict(model, loads);
+    }
+    make_system(model, loads, timer);
+}
+
+void PartStart::predict(const ModelBuffers& model, const SumLoads* loads) const {
+    assert((loads != nullptr) == has_loads_);
+    if (loads != nullptr) loads->bind(programs_.predict);
+    programs_.predict.set("gravity", model.gravity);
+    run(programs_.begin_try, 1);
+    run(programs_.predict, chunk_count_);
+}
+
+void PartStart::make_system(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
+    const Programs& p = programs_;
+    if (loads != nullptr) loads->bind(p.find_targets);
+    p.find_targets.set("gravity", model.gravity);
+    model.pulls.bind(p.find_targets);
+    {
+        const TimedStage part(timer, "advance_nodes.detect");
+        find_rows(model, loads != nullptr || model.pulls.is_acting());
     }
     const TimedStage part(timer, "advance_nodes.linearise");
     run(p.find_targets, chunk_count_);
@@ -110,19 +136,25 @@ void PartStart::run(const ModelBuffers& model, const SumLoads* loads, StageTimer
     run(p.follow_rotation, chunk_count_);
 }
 
-void PartStart::find_rows(const ModelBuffers& model) const {
+void PartStart::find_rows(const ModelBuffers& model, bool has_forces) const {
     const Programs& p = programs_;
-    run(p.begin_try, 1);
-    run(p.predict, chunk_count_);
-    if (p.has_rows) {
+    if (p.has_planes) {
         model.bind_colliders(p.count_rows);
         run(p.count_rows, chunk_count_);
     }
+    if (pairs_ != nullptr) pairs_->weigh(model);
+    p.sum_bodies.set("has_forces", has_forces ? 1u : 0u);
     run(p.sum_bodies, body_count_);
-    run(p.place_rows, 1);
-    if (!p.has_rows) return;
-    model.bind_colliders(p.make_rows);
-    run(p.make_rows, chunk_count_);
+    if (pairs_ != nullptr) {
+        pairs_->place(has_forces);
+    } else {
+        run(p.place_rows, 1);
+    }
+    if (p.has_planes) {
+        model.bind_colliders(p.make_rows);
+        run(p.make_rows, chunk_count_);
+    }
+    if (pairs_ != nullptr) pairs_->sort();
 }
 
 }  // namespace gelatin::gpu

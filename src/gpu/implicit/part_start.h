@@ -7,6 +7,7 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/drive/sum_loads.h"
+#include "gpu/implicit/pair_rows.h"
 #include "gpu/implicit/step_state.h"
 #include "gpu/implicit/step_system.h"
 #include "gpu/model_buffers.h"
@@ -14,37 +15,45 @@
 
 namespace gelatin::gpu {
 
-/// Where a part of a step begins: what its system is made of. Bodies touch colliders alone, so each is an
-/// island by itself. Or the part is found to be too long: then the clock has a shorter one for the next try,
-/// and there are no islands. Nothing is read back. CPU twin: cpu::ImplicitStep.
+/// Where a part of a step begins: what its system is made of. Without PairRows bodies touch colliders alone,
+/// so each is an island by itself. Or the part is found to be too long: then the clock has a shorter one for
+/// the next try, and there are no islands. Nothing is read back. CPU twin: cpu::ImplicitStep.
 class PartStart {
 public:
-    /// @param state, system which it writes, and which have to live as long
+    /// @param state, system which it writes, and which have to live as long, as have
+    /// @param pairs those of bodies that touch each other; null: they do not
     /// @pre the system's capacity has a pair for each body, or there are no colliders
-    PartStart(const Model& model, const StepState& state, const StepSystem& system);
+    PartStart(const Model& model, const StepState& state, const StepSystem& system,
+              PairRows* pairs = nullptr);
 
     /// Once, when velocities of held nodes take them to where handles want them. @param size of the step [s]
     /// @param divides whether it is divided where bodies touch others
     void begin_step(double size, bool divides) const;
-    /// A try, up to where StepSystem::solve(state.from) goes on. Ends with the barrier for it.
+    /// A try, up to where StepSystem::solve(state.from) goes on: both of what follows. Ends with the barrier
+    /// for it.
     /// @param loads that were summed where the part begins; null if the model has none
     /// @param timer of the parts of the step, with the names that cpu::ImplicitStep has; null: none
     void run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
+    /// Where nodes would go. Ends with the barrier for who finds near pairs there.
+    void predict(const ModelBuffers& model, const SumLoads* loads) const;
+    /// When these are found.
+    void make_system(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
 
 private:
     struct Programs {
-        Programs(const Model& model, bool has_rows);
+        Programs(const Model& model, bool has_planes, bool has_pairs);
         std::vector<const gl::Program*> all() const;
         gl::Program begin_step, begin_try, predict, count_rows, sum_bodies, place_rows, make_rows,
             find_targets, find_enough, sum_motions, follow_rotation;
-        bool has_rows;
+        bool has_planes;
     };
     void bind_buffers() const;
-    void find_rows(const ModelBuffers& model) const;
+    void find_rows(const ModelBuffers& model, bool has_forces) const;
     void run(const gl::Program& program, std::uint32_t groups) const;
 
     const StepState& state_;
     const StepSystem& system_;
+    PairRows* pairs_;
     std::uint32_t node_count_, body_count_, chunk_count_;
     [[maybe_unused]] bool has_loads_;
     Programs programs_;

@@ -70,6 +70,31 @@ StepBuffers::StepBuffers(const Model& model, const RowCapacity& capacity, std::u
     pair_sums_ = {kPairSums * capacity.pairs, rgba32f};
 }
 
+RowTables StepBuffers::tables() const {
+    gl::barrier(gl::Barrier::buffer_update);
+    const auto read = [](const auto& buffer, auto& values) {
+        values.resize(buffer.values.size());
+        buffer.values.download(values);
+    };
+    RowTables tables;
+    read(rows, tables.rows);
+    read(islands_, tables.islands);
+    read(island_of_object_, tables.island_of_object);
+    read(island_bodies_, tables.island_bodies);
+    read(island_chunks_, tables.island_chunks);
+    read(pairs_, tables.pairs);
+    read(row_chunks_, tables.row_chunks);
+    read(coupling_starts_, tables.coupling_starts);
+    read(couplings_, tables.couplings);
+    read(entry_starts_, tables.entry_starts);
+    read(row_entries_, tables.row_entries);
+    return tables;
+}
+
+void StepBuffers::unite_islands() {
+    has_large_islands_ = chunk_count > small_chunks_;
+}
+
 void StepBuffers::set_rows(std::span<const StepRow> new_rows,
                            std::span<const std::uint32_t> islands_of_bodies) {
     const RowTables tables = make_row_tables(sizes_, new_rows, islands_of_bodies);
@@ -127,8 +152,8 @@ void StepBuffers::bind_bodies(const gl::Program& program) const {
     parts_.bind(program, "Parts", "parts");
     islands_.bind(program, "Islands", "islands");
     island_of_object_.bind(program, "IslandOfObject", "island_of_object");
-    program.bind_declared("island_bodies", island_bodies_.texels);
-    program.bind_declared("island_chunks", island_chunks_.texels);
+    island_bodies_.bind(program, "IslandBodies", "island_bodies");
+    island_chunks_.bind(program, "IslandChunks", "island_chunks");
 }
 
 void StepBuffers::bind_rows(const gl::Program& program) const {

@@ -50,6 +50,11 @@ public:
     /// As StepSystem has it.
     void set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies);
 
+    /// As they are on the device, with all that there is a place for; blocks.
+    RowTables tables() const;
+
+    /// The device makes islands: each may be as large as all bodies together.
+    void unite_islands();
     /// Whether any island is larger than a work group solves by itself.
     bool has_large_islands() const { return has_large_islands_; }
 

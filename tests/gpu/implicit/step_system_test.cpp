@@ -55,6 +55,8 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kLeastReach, static_cast<float>(cpu::kLeastReach));
     EXPECT_EQ(gpu::kEasing, static_cast<float>(cpu::kEasing));
     EXPECT_EQ(gpu::kPushing, static_cast<float>(cpu::kPushing));
+    EXPECT_EQ(gpu::kOfRestGap, static_cast<float>(cpu::kOfRestGap));
+    EXPECT_EQ(gpu::kSoftened, static_cast<float>(cpu::kSoftened));
     EXPECT_EQ(gpu::kSlackOfThickness, static_cast<float>(cpu::kSlackOfThickness));
     EXPECT_EQ(gpu::kSlackOfMotion, static_cast<float>(cpu::kSlackOfMotion));
     EXPECT_EQ(gpu::kDeepest, static_cast<float>(cpu::kDeepest));

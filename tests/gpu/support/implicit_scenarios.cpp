@@ -17,6 +17,7 @@
 #include "gpu/implicit/step_system.h"
 #include "gpu/support/pair_scenarios.h"
 #include "gpu/support/part_end_scenarios.h"
+#include "gpu/support/pair_rows_scenarios.h"
 #include "gpu/support/part_start_scenarios.h"
 #include "model/shared_constants.h"
 #include "support/contact_scenes.h"
@@ -480,6 +481,7 @@ void run_implicit_programs() {
     run_end_programs();
     run_part_start();
     run_find_pairs();
+    run_pair_rows();
 }
 
 }  // namespace gelatin::test

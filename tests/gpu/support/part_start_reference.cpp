@@ -32,6 +32,7 @@ public:
         : case_(at),
           model_(*at.model),
           surface_(std::make_shared<ContactSurface>(make_contact_surface(model_, {}))),
+          pairs_of_(at.model, surface_, true),
           rows_of_(at.model, surface_),
           scheme_(at.model),
           paces_(at.model),
@@ -77,15 +78,18 @@ public:
             clock.tries += 1;
             const bool is_shortest = step < 2.0 * size / tuning::kMostParts;
             predict(step);
-            rows_of_.make({previous_.positions, predicted_, compliances_, slacks(), step,
-                           static_cast<double>(case_.last_step)},
-                          {}, system_.rows);
+            const NearPairs& near = result.near.emplace_back(find_pairs(previous_.positions, is_shortest));
+            const bool is_found = is_shortest || near.fastest <= static_cast<float>(tuning::kFastest);
+            if (is_found)
+                rows_of_.make({previous_.positions, predicted_, compliances_, slacks(), step,
+                               static_cast<double>(case_.last_step)},
+                              near.pairs, system_.rows);
             clock.parts = paces_.count_parts(system_.rows);
-            if (case_.divides && step >= 1.01 * size / clock.parts) {
+            if (is_found && case_.divides && step >= 1.01 * size / clock.parts) {
                 step = size / clock.parts;
                 continue;
             }
-            if (is_shortest || deepest() <= tuning::kDeepest) {
+            if (is_found && (is_shortest || deepest() <= tuning::kDeepest)) {
                 choose(step, damps || is_shortest, result);
                 break;
             }
@@ -96,8 +100,9 @@ public:
         clock.row_count = static_cast<std::uint32_t>(system_.rows.size());
         find_targets(step);
         find_enough(step);
-        linearise(step, result);
+        linearise(step);
         result.rows = system_.rows;
+        result.islands = islands_.of_bodies;
         for (const glm::dvec4& v : previous_.velocities) result.velocities.emplace_back(v);
         result.predicted = predicted_;
         result.compliances = compliances_;
@@ -134,7 +139,7 @@ private:
 
     std::vector<double> slacks() const {
         std::vector<double> slacks;
-        for (std::uint32_t o = 0; o < model_.body_count(); ++o) {
+        for (std::uint32_t o = 0; o < model_.objects.size(); ++o) {
             double longest = 0.0;
             const Range& nodes = model_.objects[o].nodes;
             for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -148,10 +153,36 @@ private:
 
     double deepest() const {
         double deepest = 0.0;
-        for (const ContactRow<double>& row : system_.rows)
-            deepest = std::max(deepest, -row.gap_at(cpu::relative<double>(row, predicted_)) /
-                                            surface_->thicknesses[row.other]);
+        for (const ContactRow<double>& row : system_.rows) {
+            const double most = row.object == kNoNode ? surface_->thicknesses[row.other]
+                                                      : surface_->reach(row.object, row.other);
+            deepest = std::max(deepest, -row.gap_at(cpu::relative<double>(row, predicted_)) / most);
+        }
         return deepest;
+    }
+
+    // On the way from there to where nodes are predicted.
+    NearPairs find_pairs(const std::vector<glm::dvec4>& from, bool is_shortest) {
+        NearPairs near;
+        if (!case_.has_pairs) return near;
+        std::vector<glm::dvec4> to = from;
+        for (std::size_t n = 0; n < to.size(); ++n) to[n] += glm::dvec4(predicted_[n], 0.0);
+        const std::vector<double> slack = slacks();
+        const cpu::Paths<double> paths{from, to, slack};
+        pairs_of_.begin(paths);
+        near.fastest = static_cast<float>(pairs_of_.fastest_approach(paths));
+        if (near.fastest > static_cast<float>(tuning::kFastest) && !is_shortest) return near;
+        pairs_of_.run(paths);
+        near.pairs = pairs_of_.pairs();
+        for (cpu::NearPair<double>& pair : near.pairs) {
+            pair.normal = glm::dvec3(glm::vec3(pair.normal));
+            pair.weights = glm::dvec4(glm::vec4(pair.weights));
+            pair.gap = static_cast<double>(static_cast<float>(pair.gap));
+        }
+        std::stable_sort(near.pairs.begin(), near.pairs.end(), [](const auto& a, const auto& b) {
+            return std::pair(a.pair.object, a.pair.other) < std::pair(b.pair.object, b.pair.other);
+        });
+        return near;
     }
 
     // Contacts of nodes near where they are now; a part of them is not known.
@@ -162,8 +193,11 @@ private:
             positions[n] += (n % 2 == 0 ? 1.0 : -1.0) * glm::dvec4(1e-4, 2e-4, -1e-4, 0.0);
         for (std::size_t n = 0; n < compliances_.size(); n += 3) compliances_[n] = 0.0;
         std::vector<ContactRow<double>> rows;
+        std::vector<cpu::NearPair<double>> near = find_pairs(positions, true).pairs;
+        for (std::size_t p = near.size(); p-- > 0;)
+            if (p % 5 == 0) near.erase(near.begin() + static_cast<std::ptrdiff_t>(p));
         rows_of_.make(
-            {positions, predicted_, compliances_, slacks(), static_cast<double>(case_.last_step), 0.0}, {},
+            {positions, predicted_, compliances_, slacks(), static_cast<double>(case_.last_step), 0.0}, near,
             rows);
         Field moved;
         for (const cpu::Vec3<double>& d : random_field<double>(model_.node_count(), 8))
@@ -175,6 +209,11 @@ private:
             const glm::dvec3 s = cpu::relative<double>(row, moved);
             row.limit = row.friction * row.pressing(s);
             const glm::vec3 hold(row.limit > 0.0 ? row.held(s) : glm::dvec3(0.0));
+            if (row.object != kNoNode) {
+                row.hold = glm::dvec3(hold);
+                inputs_.known.push_back(row);
+                continue;
+            }
             inputs_.memories[row.plane() * model_.body_node_count() + row.nodes[0]] = {
                 glm::vec4(hold, row.limit), static_cast<float>(row.reach), static_cast<float>(row.ease), 0,
                 0};
@@ -191,8 +230,9 @@ private:
             pace.pace = case_.paces[o];
             pace.is_struck = case_.struck[o] != 0 || pace.held_count > 0 ? 1 : 0;
             paces_.struck()[o] = static_cast<std::uint8_t>(pace.is_struck);
-            pace.is_held = islands_.are_held[o];
-            pace.velocity = glm::vec4(islands_.velocities[o], islands_.masses[o]);
+            const std::uint32_t island = islands_.of_bodies[o];
+            pace.is_held = islands_.are_held[island];
+            pace.velocity = glm::vec4(islands_.velocities[island], model_.objects[o].mass);
             result.paces.push_back(pace);
         }
         result.clock.has_past = paces_.choose(islands_, step, damps, system_.rows, scheme_) ? 1 : 0;
@@ -224,25 +264,31 @@ private:
     void find_enough(double step) {
         const double fall = tuning::kAtRest * step * glm::length(glm::dvec3(model_.gravity));
         const double rounding = tuning::kRoundings * std::numeric_limits<float>::epsilon() / step;
+        std::vector<double> energies(model_.body_count()), of_islands = energies;
         for (std::uint32_t o = 0; o < model_.body_count(); ++o) {
-            double energy = 0.0;
             const Range& nodes = model_.objects[o].nodes;
+            const std::uint32_t island = islands_.of_bodies[o];
             for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-                const glm::dvec3 v = glm::dvec3(previous_.velocities[n]) - islands_.velocities[o],
+                const glm::dvec3 v = glm::dvec3(previous_.velocities[n]) - islands_.velocities[island],
                                  x(previous_.positions[n]);
-                energy += 0.5 * static_cast<double>(model_.masses[n]) *
-                          (glm::dot(v, v) + fall * fall + rounding * rounding * glm::dot(x, x));
+                energies[o] += 0.5 * static_cast<double>(model_.masses[n]) *
+                               (glm::dot(v, v) + fall * fall + rounding * rounding * glm::dot(x, x));
             }
-            system_.enough[o] = tuning::kTolerance * (1.0 + tuning::kInIsland) * energy;
+            of_islands[island] += energies[o];
+        }
+        for (std::uint32_t o = 0; o < model_.body_count(); ++o) {
+            const std::uint32_t island = islands_.of_bodies[o];
+            const double share = model_.objects[o].mass / islands_.masses[island];
+            system_.enough[o] =
+                tuning::kTolerance * (energies[o] + tuning::kInIsland * share * of_islands[island]);
         }
     }
 
-    void linearise(double step, const StartResult& result) {
+    void linearise(double step) {
         const std::vector<std::uint32_t> object_of = objects_of_nodes(model_);
         std::vector<glm::dvec4> velocities = previous_.velocities;
         for (std::uint32_t n = 0; n < model_.node_count(); ++n)
-            velocities[n].w =
-                std::max(velocities[n].w, static_cast<double>(result.paces[object_of[n]].damping));
+            velocities[n].w = std::max(velocities[n].w, scheme_.of(object_of[n]).damping);
         system_.elastic.linearise(previous_.positions, velocities, 1.0 / step);
         system_.rigid.begin(previous_.positions, system_.inertia);
         system_.loads = system_.elastic.forces();
@@ -258,6 +304,7 @@ private:
     const StartCase& case_;
     const Model& model_;
     std::shared_ptr<const ContactSurface> surface_;
+    cpu::FindPairs<double> pairs_of_;
     cpu::ContactRows<double> rows_of_;
     cpu::TimeScheme<double> scheme_;
     cpu::Paces<double> paces_;

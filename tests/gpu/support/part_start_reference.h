@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cpu/implicit/contact_row.h"
+#include "cpu/implicit/find_pairs.h"
 #include "gelatin/pull.h"
 #include "model/model.h"
 
@@ -24,6 +25,13 @@ struct StartCase {
     std::vector<std::uint8_t> paces{0, 0}, struck{0, 0};
     bool has_pulls = false;
     std::size_t capacity = 10000;  ///< of rows
+    bool has_pairs = false;        ///< bodies touch each other, and themselves
+};
+
+/// What is near each other in a try, by objects, with numbers that float has, too.
+struct NearPairs {
+    std::vector<cpu::NearPair<double>> pairs;
+    float fastest = 0.0f;  ///< as in PairCounts
 };
 
 /// The last try of its first part, and what is solved then.
@@ -33,12 +41,15 @@ struct StartResult {
     std::vector<cpu::ContactRow<double>> rows;
     std::vector<glm::dvec3> velocities, predicted, loads, guesses, solved;  ///< of nodes
     std::vector<double> compliances, inertia, enough;
+    std::vector<NearPairs> near;         ///< of each try
+    std::vector<std::uint32_t> islands;  ///< of each body the least one
 };
 
 /// What a state has besides, made at random.
 struct StartInputs {
     std::vector<glm::vec4> earlier_velocities;
-    std::vector<PlaneMemory> memories;  ///< by collider and node
+    std::vector<PlaneMemory> memories;           ///< by collider and node
+    std::vector<cpu::ContactRow<double>> known;  ///< rows of pairs of the part before, as they were noted
     std::vector<Pull> pulls;
 };
 

@@ -1,18 +1,13 @@
 #include "gpu/support/part_start_scenarios.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "gpu/implicit/part_start.h"
+#include "gpu/support/part_start_on_gpu.h"
 #include "gpu/support/part_start_reference.h"
+#include "gpu/support/start_errors.h"
 #include "model/assembly/build_model.h"
-#include "model/contact/contact_surface.h"
 #include "support/contact_scenes.h"
 #include "support/elastic_cases.h"
 #include "support/test_models.h"
@@ -20,252 +15,13 @@
 namespace gelatin::test {
 namespace {
 
-using cpu::ContactRow;
-using Field = std::vector<glm::dvec3>;
-
-template <class T>
-std::vector<T> download(const gl::Buffer<T>& buffer) {
-    std::vector<T> values(buffer.size());
-    gl::barrier(gl::Barrier::buffer_update);
-    buffer.download(values);
-    return values;
-}
-
-Field xyz_of(const gl::Buffer<glm::vec4>& buffer) {
-    Field result;
-    for (const glm::vec4& value : download(buffer)) result.emplace_back(value);
-    return result;
-}
-
-std::vector<double> w_of(const gl::Buffer<glm::vec4>& buffer) {
-    std::vector<double> result;
-    for (const glm::vec4& value : download(buffer)) result.push_back(static_cast<double>(value.w));
-    return result;
-}
-
-ContactRow<double> converted_row(const StepRow& row) {
-    ContactRow<double> result;
-    result.nodes[0] = row.node_0;
-    result.other = row.other;
-    result.normal = glm::dvec3(row.normal);
-    result.gap = static_cast<double>(row.normal.w);
-    result.ease = static_cast<double>(row.ease);
-    result.reach = static_cast<double>(row.reach);
-    result.stiffness = static_cast<double>(row.stiffness);
-    result.damping = static_cast<double>(row.damping);
-    result.friction = static_cast<double>(row.friction);
-    result.hold = glm::dvec3(row.hold);
-    result.limit = static_cast<double>(row.hold.w);
-    result.key = key_of_contact(row.plane, row.node_0);
-    return result;
-}
-
-// On the device: tries until one goes on, or many were made.
-class OnGpu {
-public:
-    OnGpu(const StartCase& at, const StartInputs& inputs)
-        : case_(at),
-          model_(*at.model),
-          buffers_(model_),
-          surface_(make_contact_surface(model_, {})),
-          state_(model_, surface_),
-          system_(model_, capacity()),
-          start_(model_, state_, system_) {
-        if (!model_.loads.empty()) loads_.emplace(model_).run(state_.from);
-        buffers_.pulls.set_pulls(inputs.pulls);
-        system_.iterations = kStartIterations;
-        std::vector<glm::vec4> accelerations;
-        for (std::uint32_t n = 0; n < model_.node_count() && at.last_step > 0.0f; ++n)
-            accelerations.push_back((model_.velocities[n] - inputs.earlier_velocities[n]) / at.last_step);
-        state_.accelerations.values.upload(accelerations);
-        if (!inputs.memories.empty()) state_.plane_memories.upload(inputs.memories);
-        std::vector<BodyPace> paces(model_.objects.size());
-        for (std::size_t o = 0; o < model_.body_count(); ++o) {
-            paces[o].pace = at.paces[o];
-            paces[o].is_struck = at.struck[o];
-        }
-        state_.paces.values.upload(paces);
-        StepClock clock{};
-        clock.last_step = at.last_step;
-        clock.parts = 1;
-        state_.clock.upload(std::vector{clock});
-        // What is left of a solve before.
-        system_.loads().upload(
-            std::vector<glm::vec4>(model_.node_count(), glm::vec4(1.0f, 2.0f, 3.0f, 1e3f)));
-        start_.begin_step(static_cast<double>(at.size), at.divides);
-        clock = read_clock();
-        clock.damps = at.damps ? 1 : 0;
-        if (at.left > 0.0f) {
-            clock.left = at.left;
-            clock.longest = 0.6f * at.left;
-            clock.made = clock.begun = 1;
-        }
-        state_.clock.upload(std::vector{clock});
-    }
-
-    StepClock read_clock() const { return download(state_.clock)[0]; }
-    gpu::StepState& state() { return state_; }
-
-    /// @return whether what is given up has left all as it was
-    bool run() {
-        bool is_untouched = true;
-        for (int k = 0; k < 12; ++k) {
-            start_.run(buffers_, loads_ ? &*loads_ : nullptr);
-            if (read_clock().goes_on != 0) return is_untouched;
-            const Field before = xyz_of(system_.displacements());
-            system_.solve(state_.from);
-            is_untouched = is_untouched && xyz_of(system_.displacements()) == before;
-        }
-        return false;
-    }
-
-    StartResult result() {
-        StartResult result;
-        result.clock = read_clock();
-        result.paces = download(state_.paces.values);
-        result.paces.resize(model_.body_count());
-        std::vector<StepRow> rows = download(system_.buffers().rows.values);
-        rows.resize(result.clock.row_count);
-        for (const StepRow& row : rows) result.rows.push_back(converted_row(row));
-        result.velocities = xyz_of(state_.from.velocities);
-        result.predicted = xyz_of(state_.predicted.values);
-        result.compliances = w_of(state_.predicted.values);
-        result.loads = xyz_of(system_.loads());
-        result.inertia = w_of(system_.loads());
-        result.guesses = xyz_of(system_.displacements());
-        for (const float enough : download(system_.enough()))
-            result.enough.push_back(static_cast<double>(enough));
-        result.enough.resize(model_.body_count());
-        // With as many iterations as the reference, whatever rounding is.
-        std::vector<float> less(result.enough.begin(), result.enough.end());
-        for (float& enough : less) enough *= 1e-3f;
-        system_.enough().upload(less);
-        system_.begin_bodies(state_.from);
-        system_.solve(state_.from);
-        result.solved = xyz_of(system_.displacements());
-        return result;
-    }
-
-private:
-    gpu::RowCapacity capacity() const {
-        return model_.colliders.empty() ? gpu::RowCapacity{}
-                                        : gpu::RowCapacity{case_.capacity, model_.body_count()};
-    }
-
-    const StartCase& case_;
-    const Model& model_;
-    gpu::ModelBuffers buffers_;
-    ContactSurface surface_;
-    gpu::StepState state_;
-    gpu::StepSystem system_;
-    gpu::PartStart start_;
-    std::optional<gpu::SumLoads> loads_;
-};
-
-// Of values that differ by their size at most by rounding.
-class Errors {
-public:
-    /// @param scale of what counts as wrong
-    void add(double actual, double expected, double scale) {
-        const double error = std::abs(actual - expected) / scale;
-        worst_ = std::isfinite(error) ? std::max(worst_, error) : kInfinite;
-    }
-    void add(const glm::dvec3& actual, const glm::dvec3& expected, double scale) {
-        add(glm::distance(actual, expected), 0.0, scale);
-    }
-    /// By the root of the mean square of what is expected.
-    void add(const Field& actual, const Field& expected, double tolerance) {
-        double squares = 0.0;
-        for (const glm::dvec3& value : expected) squares += glm::dot(value, value);
-        const double scale = tolerance * std::sqrt(squares / static_cast<double>(expected.size())) + 1e-30;
-        for (std::size_t n = 0; n < expected.size(); ++n) add(actual[n], expected[n], scale);
-    }
-    /// By each that is expected.
-    void add(const std::vector<double>& actual, const std::vector<double>& expected, double tolerance) {
-        for (std::size_t n = 0; n < expected.size(); ++n)
-            add(actual[n], expected[n], tolerance * std::abs(expected[n]) + 1e-30);
-    }
-    void require(bool is_right) { add(is_right ? 0.0 : kInfinite, 0.0, 1.0); }
-
-    double worst() const { return worst_; }
-
-private:
-    static constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    double worst_ = 0.0;
-};
-
-using Rows = std::vector<ContactRow<double>>;
-
-void sort_by_key(Rows& rows) {
-    std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
-}
-
-// Forces by what a contact exerts over a length that counts.
-void compare_rows(Rows actual, Rows expected, Errors& errors) {
-    errors.require(actual.size() == expected.size());
-    if (actual.size() != expected.size()) return;
-    sort_by_key(actual);
-    sort_by_key(expected);
-    for (std::size_t r = 0; r < expected.size(); ++r) {
-        const ContactRow<double>&a = actual[r], &e = expected[r];
-        errors.require(a.key == e.key && a.other == e.other);
-        const double length = 1e-6, force = e.stiffness * length;
-        errors.add(a.normal, e.normal, 1e-5);
-        errors.add(a.gap, e.gap, length);
-        errors.add(a.ease, e.ease, length);
-        errors.add(a.reach, e.reach, length);
-        errors.add(a.stiffness, e.stiffness, 1e-5 * e.stiffness);
-        errors.add(a.damping, e.damping, 1e-3 * e.damping + 1e-30);
-        errors.add(a.friction, e.friction, 1e-6);
-        errors.add(a.hold, e.hold, force);
-        errors.add(a.limit, e.limit, force + 1e-3 * e.limit);
-    }
-}
-
-void compare_bodies(const std::vector<BodyPace>& actual, const std::vector<BodyPace>& expected,
-                    Errors& errors) {
-    for (std::size_t o = 0; o < expected.size(); ++o) {
-        const BodyPace &a = actual[o], &e = expected[o];
-        errors.require(a.pace == e.pace && a.is_struck == e.is_struck && a.is_held == e.is_held &&
-                       a.held_count == e.held_count);
-        errors.require(a.past == e.past && a.damping == e.damping);
-        const double mass = static_cast<double>(e.velocity.w);
-        errors.add(a.velocity.w, e.velocity.w, 1e-5 * mass);
-        errors.add(glm::dvec3(a.velocity), glm::dvec3(e.velocity), 1e-5);
-    }
-}
-
-double start_error(const StartCase& at) {
-    const auto [inputs, expected] = part_start_reference(at);
-    OnGpu gpu(at, inputs);
-    const bool is_untouched = gpu.run();
-    const StartResult actual = gpu.result();
-    Errors errors;
-    errors.require(is_untouched && actual.clock.tries == expected.clock.tries);
-    errors.require(actual.clock.parts == expected.clock.parts);
-    errors.require(actual.clock.has_past == expected.clock.has_past);
-    errors.add(actual.clock.step, expected.clock.step, 1e-6 * expected.clock.step);
-    errors.add(actual.velocities, expected.velocities, 1e-5);
-    errors.add(actual.predicted, expected.predicted, 1e-5);
-    errors.add(actual.compliances, expected.compliances, 1e-5);
-    compare_bodies(actual.paces, expected.paces, errors);
-    compare_rows(actual.rows, expected.rows, errors);
-    errors.add(actual.inertia, expected.inertia, 1e-5);
-    errors.add(actual.guesses, expected.guesses, 1e-4);
-    errors.add(actual.loads, expected.loads, 1e-4);
-    errors.add(actual.enough, expected.enough, 1e-4);
-    // Of contacts with a reach of a thousandth gaps are near rounding; of wrong tables nothing is right.
-    errors.add(actual.solved, expected.solved, 4e-2);
-    return errors.worst();
-}
-
 // Rows for which there is no place are left out, and counted.
 double capacity_error(const StartCase& at) {
     const auto [inputs, expected] = part_start_reference(at);
-    OnGpu gpu(at, inputs);
+    StartOnGpu gpu(at, inputs);
     const bool is_untouched = gpu.run();
     const StartResult actual = gpu.result();
-    Errors errors;
+    StartErrors errors;
     errors.require(is_untouched);
     errors.require(actual.clock.row_count == at.capacity);
     errors.require(actual.clock.dropped_rows + at.capacity == expected.rows.size());
@@ -276,11 +32,11 @@ double capacity_error(const StartCase& at) {
 
 // After the step is over nothing is done.
 double over_error(const StartCase& at) {
-    OnGpu gpu(at, part_start_reference(at).first);
+    StartOnGpu gpu(at, part_start_reference(at).first);
     gpu.run();
     StepClock clock = gpu.read_clock();
     clock.is_over = 1;
-    gpu.state().clock.upload(std::vector{clock});
+    gpu.state.clock.upload(std::vector{clock});
     gpu.run();
     return error_if(gpu.read_clock().tries != clock.tries || gpu.read_clock().goes_on != 0);
 }
