@@ -10,9 +10,9 @@ ResidualSums sum_by_lanes(vec4 force, vec3 moment) {
     barrier();
     if (lane < kLanes / 16u) {
         ResidualSums sum = ResidualSums(vec4(0.0), vec4(0.0));
-        for (uint k = 16u * lane; k < 16u * lane + 16u; ++k) {
-            sum.force += lane_parts[k];
-            sum.moment += lane_moments[k];
+        for (uint k = 0u; k < 16u; ++k) {
+            sum.force += lane_parts[16u * lane + k];
+            sum.moment += lane_moments[16u * lane + k];
         }
         row_parts[lane] = sum.force;
         row_moments[lane] = sum.moment;

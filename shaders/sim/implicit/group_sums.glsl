@@ -8,7 +8,7 @@ vec4 sum_over_group(vec4 own) {
     barrier();
     if (lane < kLanes / 16u) {
         vec4 sum = vec4(0.0);
-        for (uint k = 16u * lane; k < 16u * lane + 16u; ++k) sum += lane_parts[k];
+        for (uint k = 0u; k < 16u; ++k) sum += lane_parts[16u * lane + k];
         row_parts[lane] = sum;
     }
     barrier();
@@ -29,7 +29,7 @@ float max_over_group(float own) {
     barrier();
     if (lane < kLanes / 16u) {
         float most = own;
-        for (uint k = 16u * lane; k < 16u * lane + 16u; ++k) most = max(most, lane_parts[k].x);
+        for (uint k = 0u; k < 16u; ++k) most = max(most, lane_parts[16u * lane + k].x);
         row_parts[lane].x = most;
     }
     barrier();

@@ -20,6 +20,8 @@ void set_value(uint slot, vec3 value) {
     values[slot + 2u * kSlots] = value.z;
 }
 
+layout(std430) coherent buffer Displacements { vec4 displacements[]; };  // d [m]
+
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/solve_state.glsl"
 #include "sim/implicit/group_residuals.glsl"
@@ -30,7 +32,6 @@ void set_value(uint slot, vec3 value) {
 #include "sim/implicit/row_tangents.glsl"
 layout(std430) writeonly buffer BaseSums { ResidualSums base_sums[]; };
 #endif
-layout(std430) buffer Displacements { vec4 displacements[]; };  // d [m]
 layout(std430) writeonly buffer States { SolveState states[]; };
 
 shared uvec4 island_parts[kMost];       // chunks: object, first node, count, which body of the island
@@ -77,6 +78,14 @@ vec3 relative(StepRow row) {
 }
 
 vec3 change_of(uint r) { return relative(rows[r]); }
+
+// By the displacements in memory.
+vec3 displaced(StepRow row) {
+    uvec4 nodes = nodes_of(row);
+    vec3 s = vec3(0.0);
+    for (int j = 0; j < 4; ++j) s += row.weights[j] * displacements[nodes[j]].xyz;
+    return s;
+}
 
 // What rows exert at their slips, and by how much less after the displacements that are shared.
 bool has_slips, has_values;
@@ -260,11 +269,12 @@ void make_step() {
         set_value(slot_of(k), displacements[n].xyz);
         bases[k] -= part * products[k];
     }
-    barrier();
 #ifdef ROWS
-    // Those of a body with itself have not followed its rigid motion so far.
-    for (uint r = island.first_row + gl_LocalInvocationID.x; r < island.row_end; r += kLanes)
-        slips[r].xyz = relative(rows[r]);
+    // With held nodes that are not of the island. Rows of a body with itself have not followed its rigid motion so far.
+    wait_for_group();
+    for (uint r = island.first_row + gl_LocalInvocationID.x; r < island.row_end; r += kLanes) slips[r].xyz = displaced(rows[r]);
+#else
+    barrier();
 #endif
 }
 

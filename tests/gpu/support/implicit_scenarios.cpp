@@ -372,6 +372,19 @@ SolveCase stack(double friction) {
     return at;
 }
 
+// A soft block pushed into the surface of a collider, whose nodes move.
+SolveCase block_on_a_surface() {
+    ColliderDescription table;
+    table.shape = Shape(BoxShape{{0.4, 0.1, 0.4}});
+    table.position = {0.15, -0.1, 0.15};
+    SolveCase at{make_blocks({{.youngs_modulus = 2e4}}, {0, -10, 0}, {table}), 10, 1e-6f};
+    at.push = 0.05f;
+    RowMaker maker(at.model);
+    maker.add(1, 0, 40, kUp, 0.4);
+    at.rows = maker.rows;
+    return at;
+}
+
 }  // namespace
 
 Scenarios elastic_system_scenarios() {
@@ -417,6 +430,7 @@ Scenarios step_system_scenarios(std::uint32_t small_chunks) {
              return solve_error(at);
          }});
     scenarios.push_back({"rows_of_a_held_body", [=] { return solve_error(held_block()); }});
+    scenarios.push_back({"rows_with_a_moving_surface", [=] { return solve_error(block_on_a_surface()); }});
     scenarios.push_back({"rows_of_what_is_enough_at_once", [=] {
                              SolveCase at = several_islands(0.4, 20, false);
                              at.enough = 1e9f;

@@ -118,7 +118,8 @@ StartOnGpu::StartOnGpu(const StartCase& at, const StartInputs& inputs, std::vect
              at.has_pairs
                  ? gpu::RowCapacity{at.capacity, at.model->body_count() + pair_capacity(*at.model).slots}
              : at.model->colliders.empty() ? gpu::RowCapacity{}
-                                           : gpu::RowCapacity{at.capacity, at.model->body_count()}),
+                                           : gpu::RowCapacity{at.capacity, at.model->body_count()},
+             0),  // a software driver ends long loops early (docs/gpu-status.md)
       pairs(at.has_pairs ? std::optional<gpu::PairBuffers>(std::in_place, *at.model, pair_capacity(*at.model))
                          : std::nullopt),
       pair_rows(at.has_pairs
