@@ -336,7 +336,7 @@ std::shared_ptr<const Model> shaken(const Model& model, float amount) {
 constexpr double kGap = 0.003;  // [m]
 
 // Three blocks above each other, the lowest held at its floor, and two beside them, one of which is alone.
-std::shared_ptr<const Model> make_stack(double fall = -0.3) {
+std::shared_ptr<const Model> make_stack(double fall = -0.3, double floor = 0.0) {
     const glm::dvec3 size(0.2);
     const glm::ivec3 cells{2, 2, 2};
     return shaken(
@@ -353,9 +353,9 @@ std::shared_ptr<const Model> make_stack(double fall = -0.3) {
               .velocity = {-0.2, 0.0, 0.0},
               .cells = cells,
               .size = size,
-              .youngs_modulus = 1e6},
+              .youngs_modulus = 2e5},
              {.place = {3.0, 1.0, 0.0}, .velocity = {0.0, 1.0, 0.0}, .cells = cells, .size = size}},
-            {0.0, -9.81, 0.0}, {plane_at(0.0)}),
+            {0.0, -9.81, 0.0}, {plane_at(floor)}),
         2e-4f);
 }
 
@@ -431,7 +431,9 @@ Scenarios pair_rows_scenarios() {
     add("tables_of_many", make_many, {}, table_error);
     add("many", make_many, {}, start_error);
     add("first_part", stack, {}, start_error);
-    add("still_bodies_are_damped", stack,
+    // No gap is what a contact reaches, but for rounding: only within are there dampers.
+    add(
+        "still_bodies_are_damped", [] { return make_stack(-0.3, -1e-3); },
         {.last_step = kQuarterFrame, .has_memory = true, .paces = {2, 2, 2, 2, 2, 2}}, start_error);
     add("islands_of_different_paces", stack, {.last_step = kQuarterFrame, .paces = {2, 2, 2, 1, 2, 0}},
         start_error);

@@ -315,7 +315,9 @@ double start_error(const StartCase& at) {
     compare_rows(actual.rows, expected.rows, errors);
     errors.add(actual.inertia, expected.inertia, 1e-5);
     errors.add(actual.guesses, expected.guesses, 1e-4);
-    errors.add(actual.loads, expected.loads, 1e-4);
+    // Elements of still bodies are damped: of rigid velocities that leaves rounding.
+    const bool has_still = std::count(at.paces.begin(), at.paces.end(), 2) > 0;
+    errors.add(actual.loads, expected.loads, has_still ? 5e-4 : 1e-4);
     errors.add(actual.enough, expected.enough, 1e-4);
     // Of contacts with a reach of a thousandth gaps are near rounding; of wrong tables nothing is right.
     errors.add(actual.solved, expected.solved, 4e-2);
