@@ -170,10 +170,18 @@ TEST_F(LayoutsTest, NearPairs) {
     check("near_pair.glsl", "PairCounts", sizeof(PairCounts),
           {FIELD(PairCounts, slots), FIELD(PairCounts, searches), FIELD(PairCounts, leaf_pairs),
            FIELD(PairCounts, pairs), FIELD(PairCounts, fastest), FIELD(PairCounts, is_full),
-           FIELD(PairCounts, unused_0), FIELD(PairCounts, unused_1)});
+           FIELD(PairCounts, has_lost), FIELD(PairCounts, unused_1)});
     check("near_pair.glsl", "RowMemory", sizeof(RowMemory),
           {FIELD(RowMemory, hold), FIELD(RowMemory, reach), FIELD(RowMemory, first), FIELD(RowMemory, second),
            FIELD(RowMemory, is_edges)});
+}
+
+TEST_F(LayoutsTest, PairGuard) {
+    check("pair_guard.glsl", "GuardState", sizeof(GuardState),
+          {FIELD(GuardState, is_changed), FIELD(GuardState, needs_again), FIELD(GuardState, clipped),
+           FIELD(GuardState, is_given_up)});
+    check("pair_guard.glsl", "NodeClips", sizeof(NodeClips),
+          {FIELD(NodeClips, rounds), FIELD(NodeClips, count)});
 }
 
 TEST_F(LayoutsTest, Draw) {

@@ -16,6 +16,7 @@
 #include "gpu/implicit/elastic_system.h"
 #include "gpu/implicit/step_system.h"
 #include "gpu/support/part_end_scenarios.h"
+#include "gpu/support/pair_guard_scenarios.h"
 #include "gpu/support/part_start_scenarios.h"
 #include "model/shared_constants.h"
 #include "support/contact_scenes.h"
@@ -478,6 +479,7 @@ void run_implicit_programs() {
     for (const ElasticCase& at : elastic_cases()) elastic_on_gpu(at.model);
     run_end_programs();
     run_part_start();
+    run_pair_guard();
 }
 
 }  // namespace gelatin::test
