@@ -33,7 +33,7 @@ struct PairCounts {      // 32 bytes
     uint  pairs;         // NearPairs
     float fastest;       // cpu::FindPairs::fastest_approach [reaches]
     uint  is_full;       // 1: some had no place
-    uint  has_lost;      // 1: a body may meet itself where no pairs were searched
+    uint  has_lost;      // 1: there may be self-contact where no pairs were searched
     uint  unused_1;
 };
 // What a contact of two objects passes on to the next part.

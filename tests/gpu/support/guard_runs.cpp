@@ -20,11 +20,11 @@ namespace tuning = cpu::tuning;
 
 // What both sides begin with.
 template <class Real>
-struct Ways {
+struct GuardedWays {
     std::vector<cpu::Vec4<Real>> from, to;
     std::vector<Real> slacks, compliances;
 
-    explicit Ways(const Wishes& wishes, const ContactSurface& surface)
+    explicit GuardedWays(const Wishes& wishes, const ContactSurface& surface)
         : from(converted<Real>(wishes.model->positions)),
           to(converted<Real>(wishes.expected.empty() ? wishes.ends : wishes.expected)),
           compliances(wishes.compliances.begin(), wishes.compliances.end()) {
@@ -51,7 +51,7 @@ struct Ways {
 };
 
 template <class T>
-std::vector<T> read(const gl::Buffer<T>& buffer) {
+std::vector<T> downloaded(const gl::Buffer<T>& buffer) {
     std::vector<T> values(buffer.size());
     gl::barrier(gl::Barrier::buffer_update);
     buffer.download(values);
@@ -77,9 +77,9 @@ NearPair packed(const cpu::NearPair<float>& near) {
     return result;
 }
 
-class OnGpu {
+class GuardOnGpu {
 public:
-    explicit OnGpu(const Wishes& wishes)
+    explicit GuardOnGpu(const Wishes& wishes)
         : wishes_(wishes),
           model_(*wishes.model),
           surface_(std::make_shared<ContactSurface>(make_contact_surface(model_, {}))),
@@ -113,17 +113,17 @@ public:
             clock.goes_on = 1;
             state_.clock.upload(std::vector{clock});
             guard_.run(buffers_);
-            if (++result.runs == 1) result.clipped = read(guard_.found())[0].clipped;
-            const bool has_lost = finder_.find_lost(read(state_.to.positions)) || wishes_.loses_always;
+            if (++result.runs == 1) result.clipped = downloaded(guard_.found())[0].clipped;
+            const bool has_lost = finder_.find_lost(downloaded(state_.to.positions)) || wishes_.loses_always;
             upload_counts(has_lost);
             guard_.decide();
-            clock = read(state_.clock)[0];
+            clock = downloaded(state_.clock)[0];
             follow_paths();
         } while (clock.guards > 0);
-        const GuardState found = read(guard_.found())[0];
+        const GuardState found = downloaded(guard_.found())[0];
         result.is_changed = found.is_changed != 0;
         result.is_given_up = found.is_given_up != 0;
-        result.ends = doubles(read(state_.to.positions));
+        result.ends = doubles(downloaded(state_.to.positions));
         result.path_ends = doubles(ways_.to);
         return result;
     }
@@ -156,7 +156,7 @@ private:
         pairs_.counts.upload(std::vector{counts});
     }
     void follow_paths() {
-        const std::vector<glm::vec4> path_ends = read(pairs_.path_ends.values);
+        const std::vector<glm::vec4> path_ends = downloaded(pairs_.path_ends.values);
         std::vector<std::uint32_t> strays;
         for (std::uint32_t n = 0; n < path_ends.size(); ++n)
             if (path_ends[n] != ways_.to[n]) strays.push_back(n);
@@ -167,7 +167,7 @@ private:
     const Wishes& wishes_;
     const Model& model_;
     std::shared_ptr<const ContactSurface> surface_;
-    Ways<float> ways_;
+    GuardedWays<float> ways_;
     cpu::FindPairs<float> finder_;
     gpu::ModelBuffers buffers_;
     gpu::StepState state_;
@@ -193,7 +193,7 @@ bool may_touch(const cpu::Moving<double, 3>& a, const cpu::Moving<double, 3>& b,
 Guarded guard_on_cpu(const Wishes& wishes) {
     const Model& model = *wishes.model;
     const auto surface = std::make_shared<const ContactSurface>(make_contact_surface(model, {}));
-    Ways<double> ways(wishes, *surface);
+    GuardedWays<double> ways(wishes, *surface);
     cpu::FindPairs<double> finder(wishes.model, surface, wishes.own);
     cpu::Guard<double> guard(wishes.model, surface);
     Guarded result;
@@ -217,7 +217,7 @@ Guarded guard_on_cpu(const Wishes& wishes) {
 }
 
 Guarded guard_on_gpu(const Wishes& wishes) {
-    return OnGpu(wishes).run();
+    return GuardOnGpu(wishes).run();
 }
 
 bool touch_on_the_way(const Wishes& wishes, const std::vector<glm::dvec4>& ends) {

@@ -34,13 +34,13 @@ Move by(const std::vector<glm::dvec3>& motions) {
 }
 
 // Two blocks of one cell, 0.1 m of size, side by side along x with a gap of 2 mm.
-std::shared_ptr<const Model> two_blocks(const std::vector<ColliderDescription>& colliders = {}) {
+std::shared_ptr<const Model> blocks_beside(const std::vector<ColliderDescription>& colliders = {}) {
     return make_blocks({{.cells = {1, 1, 1}, .size = glm::dvec3(0.1)},
                         {.place = {0.102, 0, 0}, .cells = {1, 1, 1}, .size = glm::dvec3(0.1)}},
                        {0, 0, 0}, colliders);
 }
 
-ColliderDescription surface(Shape shape, const glm::dvec3& position, bool moves = false) {
+ColliderDescription a_surface(Shape shape, const glm::dvec3& position, bool moves = false) {
     ColliderDescription description;
     description.shape = std::move(shape);
     description.position = position;
@@ -52,7 +52,7 @@ ColliderDescription surface(Shape shape, const glm::dvec3& position, bool moves 
     return description;
 }
 
-ColliderDescription plane(const glm::dvec3& normal, double offset) {
+ColliderDescription a_plane(const glm::dvec3& normal, double offset) {
     ColliderDescription description;
     description.shape = PlaneCollider{normal, offset};
     return description;
@@ -160,7 +160,7 @@ Wishes folding(double angle) {
 // not.
 double handle_error(const glm::dvec3& motion, bool is_blocked) {
     std::vector<ColliderDescription> walls;
-    if (is_blocked) walls.push_back(surface(Shape(BoxShape{{0.2, 1.0, 1.0}}), {0.41, 0, 0}));
+    if (is_blocked) walls.push_back(a_surface(Shape(BoxShape{{0.2, 1.0, 1.0}}), {0.41, 0, 0}));
     const auto model = make_blocks(
         {{.cells = {2, 1, 1}, .size = {0.2, 0.1, 0.1}, .pins = {HalfSpaceRegion{{-1, 0, 0}, -0.05}}},
          {.place = {0.202, 0.01, 0}, .cells = {1, 1, 1}, .size = glm::dvec3(0.1)}},
@@ -178,8 +178,8 @@ double handle_error(const glm::dvec3& motion, bool is_blocked) {
 // A collider that comes down on a body on a box.
 double press_error() {
     const auto model = make_blocks({{.cells = {2, 2, 2}, .size = glm::dvec3(0.2)}}, {0, 0, 0},
-                                   {surface(Shape(BoxShape{glm::dvec3(0.5)}), {0.1, -0.252, 0.1}),
-                                    surface(Shape(BoxShape{glm::dvec3(0.3)}), {0.1, 0.352, 0.1}, true)});
+                                   {a_surface(Shape(BoxShape{glm::dvec3(0.5)}), {0.1, -0.252, 0.1}),
+                                    a_surface(Shape(BoxShape{glm::dvec3(0.3)}), {0.1, 0.352, 0.1}, true)});
     const Wishes wishes = wish(model, by({{0, 0, 0}, {0, 0, 0}, {0, -0.3, 0}}));
     const Guarded actual = guard_on_gpu(wishes);
     if (!is_sound(wishes, actual) || actual.is_given_up) return error_if(true);
@@ -204,7 +204,7 @@ Wishes dozen() {
 }
 
 double infinite_error() {
-    Wishes wishes = wish(two_blocks(), by({{0.05, 0, 0}}));
+    Wishes wishes = wish(blocks_beside(), by({{0.05, 0, 0}}));
     wishes.ends[3].y = std::numeric_limits<float>::quiet_NaN();
     wishes.ends[9].x = std::numeric_limits<float>::infinity();
     wishes.expected = wish(wishes.model, by({{0.05, 0, 0}})).ends;
@@ -213,7 +213,7 @@ double infinite_error() {
 }
 
 double given_up_error() {
-    Wishes wishes = wish(two_blocks(), by({{0.001, 0, 0}}));
+    Wishes wishes = wish(blocks_beside(), by({{0.001, 0, 0}}));
     wishes.loses_always = true;
     const Guarded actual = guard_on_gpu(wishes), expected = guard_on_cpu(wishes);
     return error_if(!actual.is_given_up || !actual.is_changed || actual.runs != expected.runs ||
@@ -221,8 +221,8 @@ double given_up_error() {
 }
 
 // Those beyond the end of the buffer are as if they were not there.
-double capacity_error() {
-    Wishes wishes = wish(two_blocks(), by({{0.05, 0, 0}}));
+double full_guard_error() {
+    Wishes wishes = wish(blocks_beside(), by({{0.05, 0, 0}}));
     wishes.capacity = 5;
     const Guarded actual = guard_on_gpu(wishes);
     return error_if(!are_finite(actual.ends) || actual.clipped == 0 || actual.clipped > 5);
@@ -237,30 +237,32 @@ Scenarios pair_guard_scenarios() {
     };
     for (const double distance : {0.003, 0.05, 0.4})
         add("stops_after_" + std::to_string(int(1000 * distance)) + "_mm", [=] {
-            return parity_error(wish(two_blocks(), by({{distance, 0, 0}})), 1e-6);
+            return parity_error(wish(blocks_beside(), by({{distance, 0, 0}})), 1e-6);
         });
     add("both_sides_go", [] {
-        return parity_error(wish(two_blocks(), by({{0.05, 0, 0}, {-0.05, 0, 0}})), 1e-6);
+        return parity_error(wish(blocks_beside(), by({{0.05, 0, 0}, {-0.05, 0, 0}})), 1e-6);
     });
     add("shares_by_compliance", [] {
-        Wishes wishes = wish(two_blocks(), by({{0.05, 0, 0}, {-0.05, 0, 0}}));
+        Wishes wishes = wish(blocks_beside(), by({{0.05, 0, 0}, {-0.05, 0, 0}}));
         for (std::size_t n = 0; n < wishes.ends.size(); ++n)
             wishes.compliances.push_back(n < wishes.model->objects[0].nodes.count ? 9.0f : 1.0f);
         return parity_error(wishes, 1e-6);
     });
     add("a_frame_and_more", [] {
-        return parity_error(wish(two_blocks(), by({{0.45, 0.02, 0.1}, {0.4, 0, 0.1}})), 1e-6);
+        return parity_error(wish(blocks_beside(), by({{0.45, 0.02, 0.1}, {0.4, 0, 0.1}})), 1e-6);
     });
     add("nothing_meets", [] {
         double error = 0.0;
         for (const glm::dvec3& motion :
              {glm::dvec3(0.0015, 0, 0), glm::dvec3(-0.2, 0, 0), glm::dvec3(0, 0.03, 0.02)})
-            error += unchanged_error(wish(two_blocks(), by({motion})));
+            error += unchanged_error(wish(blocks_beside(), by({motion})));
         return error;
     });
-    add("together", [] { return unchanged_error(wish(two_blocks(), by({{0.5, 0.1, 0}, {0.5, 0.1, 0}}))); });
+    add("together", [] {
+        return unchanged_error(wish(blocks_beside(), by({{0.5, 0.1, 0}, {0.5, 0.1, 0}})));
+    });
     add("strays", [] {
-        Wishes wishes = wish(two_blocks(), by({}));
+        Wishes wishes = wish(blocks_beside(), by({}));
         wishes.expected = wishes.ends;
         for (std::size_t n = 0; n < wishes.ends.size(); ++n) {
             wishes.expected[n].x += 0.05f;
@@ -269,23 +271,23 @@ Scenarios pair_guard_scenarios() {
         return parity_error(wishes, 1e-6);
     });
     add("into_planes", [] {
-        const auto model = two_blocks({plane({0, 1, 0}, -0.001), plane({-0.6, 0.8, 0}, -0.3)});
+        const auto model = blocks_beside({a_plane({0, 1, 0}, -0.001), a_plane({-0.6, 0.8, 0}, -0.3)});
         return parity_error(wish(model, by({{0.3, -0.1, 0}, {-0.1, -0.3, 0.1}})), 2e-6);
     });
     add("pressed_on_a_plane", [] {
         const auto model =
             make_blocks({{.cells = {2, 1, 2}, .size = {0.2, 0.1, 0.2}},
                          {.place = {0.03, 0.102, 0.02}, .cells = {2, 1, 2}, .size = {0.2, 0.1, 0.2}}},
-                        {0, 0, 0}, {plane({0, 1, 0}, -0.001)});
+                        {0, 0, 0}, {a_plane({0, 1, 0}, -0.001)});
         return soundness_error(wish(model, by({{0.0, -0.01, 0}, {0.01, -0.2, 0}})), 1.1);
     });
     add("a_frame_into_a_plane", [] {
-        const auto model = two_blocks({plane({0, 1, 0}, -0.3)});
+        const auto model = blocks_beside({a_plane({0, 1, 0}, -0.3)});
         return parity_error(wish(model, by({{0.45, -0.5, 0}, {0.4, -0.5, 0}})), 2e-6);
     });
     add("through_a_box", [] {
         const auto model = make_blocks({{.place = {0.05, 0.27, 0.1}}}, {0, 0, 0},
-                                       {surface(Shape(BoxShape{glm::dvec3(0.5)}), {0, 0, 0})});
+                                       {a_surface(Shape(BoxShape{glm::dvec3(0.5)}), {0, 0, 0})});
         return soundness_error(wish(model, by({{0.02, -1.0, 0.0}})), 1.1);
     });
     add("through_a_plate", [] {
@@ -305,7 +307,7 @@ Scenarios pair_guard_scenarios() {
         add("violent_" + std::to_string(seed), [=] { return soundness_error(violent(seed), 1.3); });
     add("what_is_not_finite_stays", [] { return infinite_error(); });
     add("runs_too_often", [] { return given_up_error(); });
-    add("too_many_pairs", [] { return capacity_error(); });
+    add("too_many_pairs", [] { return full_guard_error(); });
     add("repeats", [] {
         const Wishes wishes = violent(3);
         const Guarded first = guard_on_gpu(wishes), second = guard_on_gpu(wishes);
@@ -316,7 +318,7 @@ Scenarios pair_guard_scenarios() {
 }
 
 void run_pair_guard() {
-    guard_on_gpu(wish(two_blocks(), by({{0.05, 0, 0}})));
+    guard_on_gpu(wish(blocks_beside(), by({{0.05, 0, 0}})));
 }
 
 }  // namespace gelatin::test
