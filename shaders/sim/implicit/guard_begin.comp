@@ -47,7 +47,7 @@ void main() {
             end_positions[n] = end;
         }
         wanted_positions[n] = end;
-        node_clips[n] = NodeClips(0u, 0u);
+        node_clips[n] = NodeClips(0u, kNone);
         if (end.w == 0.0) {
             sums[4] += 1.0LF;
             continue;

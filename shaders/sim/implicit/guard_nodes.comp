@@ -7,31 +7,31 @@
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer thicknesses;  // of objects [m]
-layout(std430) readonly buffer Clips { NodeClips node_clips[]; };
-layout(std430) readonly buffer ClipLists { uint clip_lists[]; };    // pairs, kClipsOfNode a node
-layout(std430) readonly buffer PairClips { vec4 pair_clips[]; };    // by pair
+layout(std430) buffer Clips { NodeClips node_clips[]; };
 layout(std430) writeonly buffer EndPositions { vec4 end_positions[]; };
 layout(std430) writeonly buffer Guard { GuardState guard[]; };
 
-// The half space of a clipped pair for one of its nodes.
-vec4 clip_of(uint p, uint n) {
-    GuardedPair pair = fetch_pair(p);
-    vec4 limits = pair_clips[p];
-    float height = dot(pair.normal, start_of(n) - start_of(pair.nodes.x));
-    bool is_on_first = n == pair.nodes.x || (pair.is_edges && n == pair.nodes.y);
-    return is_on_first ? vec4(pair.normal, limits.x - height + limits.z) : vec4(-pair.normal, height - limits.y + limits.w);
-}
-
-// The last pair first, so that results do not depend on who was the first to write.
-void find_clips(uint n, uint count) {
-    uint pairs[kClipsOfNode];
-    for (uint k = 0u; k < count; ++k) {
-        uint pair = clip_lists[n * kClipsOfNode + k], place = k;
-        for (; place > 0u && pairs[place - 1u] < pair; --place) pairs[place] = pairs[place - 1u];
-        pairs[place] = pair;
+// The last pair first, so that results do not depend on who was the first to write. It mostly is so already.
+// @return the first
+uint sort_clips(uint first) {
+    uint last = first;
+    while (first != kNone && clip_links[last] != kNone) {
+        uint clip = clip_links[last];
+        if (clip < last) {
+            last = clip;
+            continue;
+        }
+        clip_links[last] = clip_links[clip];
+        uint before = kNone, after = first;
+        for (; after > clip; after = clip_links[after]) before = after;
+        clip_links[clip] = after;
+        if (before == kNone) {
+            first = clip;
+        } else {
+            clip_links[before] = clip;
+        }
     }
-    for (uint k = 0u; k < count; ++k) clips[k] = clip_of(pairs[k], n);
-    clip_count = count;
+    return first;
 }
 
 void main() {
@@ -43,9 +43,10 @@ void main() {
     vec4 to = texelFetch(wanted, int(n));
     Guarded node = Guarded(start_of(n), to.xyz, frame_of(object), texelFetch(thicknesses, int(object)).x);
     vec3 d = vec3(0.0);
-    if ((own.rounds & kStays) == 0u && own.count <= kClipsOfNode) {
-        find_clips(n, own.count);
-        vec4 placed = place(node);
+    if ((own.rounds & kStays) == 0u) {
+        uint first = sort_clips(own.first);
+        node_clips[n].first = first;
+        vec4 placed = place(node, first);
         if (placed.w == 0.0) return;
         d = placed.xyz;
     }

@@ -13,12 +13,13 @@ uniform samplerBuffer ends;        // where nodes are after this round [m]; w: 0
 uniform samplerBuffer predicted;   // w: compliances [m/N]
 layout(std430) readonly buffer Counts { PairCounts counts[]; };
 layout(std430) buffer Clips { NodeClips node_clips[]; };
-layout(std430) writeonly buffer ClipLists { uint clip_lists[]; };
-// By pair: heights of the first side's top and the second's bottom along the normal from the first node, and how far each side may go
-// beyond [m]; x < 0: the pair is not clipped.
-layout(std430) buffer PairClips { vec4 pair_clips[]; };
+// Of each pair, for each of its nodes: a half space, and the link to the node's next one, kNone, or kNotClipped.
+layout(std430) writeonly buffer HalfSpaces { vec4 half_spaces[]; };
+layout(std430) buffer ClipLinks { uint clip_links[]; };
 layout(std430) buffer Marks { uint object_marks[]; };
 layout(std430) buffer Guard { GuardState guard[]; };
+
+const uint kNotClipped = kNone - 1u;
 
 vec3 end_of(uint n) { return texelFetch(ends, int(n)).xyz; }
 
@@ -90,9 +91,9 @@ void place_later(uint n) { atomicOr(node_clips[n].rounds, 2u << round_); }
 void stay(uint n) {
     if ((atomicOr(node_clips[n].rounds, kStays) & kStays) == 0u) place_later(n);
 }
-void add(uint n, uint p) {
-    uint place = atomicAdd(node_clips[n].count, 1u);
-    if (place < kClipsOfNode) clip_lists[n * kClipsOfNode + place] = p;
+void add(uint n, uint clip, vec4 space) {
+    half_spaces[clip] = space;
+    clip_links[clip] = atomicExchange(node_clips[n].first, clip);
     place_later(n);
 }
 
@@ -122,13 +123,17 @@ void clip(uint p, GuardedPair pair, mat4x3 from) {
         share = first / (first + second);
         if (first > 0.0 && second > 0.0) share = clamp(share, kLeastShare, 1.0 - kLeastShare);
     }
-    pair_clips[p] = vec4(top, bottom, share * usable, (1.0 - share) * usable);
     for (uint k = 0u; k < 4u; ++k) {
-        if (is_held(pair.nodes[k])) continue;
-        if (gap > 0.0) {
-            add(pair.nodes[k], p);
+        uint n = pair.nodes[k];
+        clip_links[4u * p + k] = kNone;
+        if (is_held(n)) continue;
+        float height = dot(pair.normal, from[k] - from[0]);
+        if (!(gap > 0.0)) {
+            stay(n);
+        } else if (is_first(pair, k)) {
+            add(n, 4u * p + k, vec4(pair.normal, top - height + share * usable));
         } else {
-            stay(pair.nodes[k]);
+            add(n, 4u * p + k, vec4(-pair.normal, height - bottom + (1.0 - share) * usable));
         }
     }
     atomicAdd(guard[0].clipped, 1u);
@@ -146,8 +151,7 @@ void give_up(GuardedPair pair, bool is_clipped) {
     bool moves = false, is_blocked = false;
     for (uint k = 0u; k < 4u; ++k) {
         uint n = pair.nodes[k], object = is_first(pair, k) ? pair.object : pair.other;
-        NodeClips own = node_clips[n];
-        bool is_moving = is_held(n) ? end_of(n) != start_of(n) : (own.rounds & kStays) == 0u && own.count <= kClipsOfNode;
+        bool is_moving = is_held(n) ? end_of(n) != start_of(n) : (node_clips[n].rounds & kStays) == 0u;
         moves = moves || is_moving;
         if (!is_clipped || !is_moving || !is_held(n)) continue;
         atomicOr(object_marks[object], kIsBlocked);
@@ -160,8 +164,8 @@ void main() {
     uint p = global_index();
     if (p >= min(counts[0].pairs, pair_capacity) || !goes_on()) return;
     GuardedPair pair = fetch_pair(p);
-    bool is_last = round_ == kGuardRounds, is_clipped = round_ > 0u && pair_clips[p].x >= 0.0;
-    if (round_ == 0u) pair_clips[p] = vec4(-1.0);
+    bool is_last = round_ == kGuardRounds, is_clipped = round_ > 0u && clip_links[4u * p] != kNotClipped;
+    if (round_ == 0u) clip_links[4u * p] = kNotClipped;
     uint placed = 0u;
     for (uint k = 0u; k < 4u; ++k) placed |= node_clips[pair.nodes[k]].rounds;
     bool is_due = round_ == 0u || (placed >> round_ & 1u) != 0u || (is_last && is_clipped);

@@ -41,7 +41,7 @@ void main() {
         vec4 end = end_positions[n];
         if (!(end.w > 0.0)) continue;
         vec3 from = texelFetch(positions, int(n)).xyz, wanted = end.xyz;
-        vec4 placed = place(Guarded(from, wanted, frame, thickness));
+        vec4 placed = place(Guarded(from, wanted, frame, thickness), kNone);
         if (placed.w == 0.0) continue;
         end.xyz = from + frame + placed.xyz;
         end_positions[n] = end;

@@ -1,6 +1,7 @@
 // Half spaces that a node keeps to: of its displacement d in the frame, n . d <= w. CPU twin: gelatin::cpu::Guard.
-// PAIRS: clips[] has those of pairs, clip_count of them.
+// PAIRS: those of pairs, too; a list.
 #include "layouts/contact_tuning.glsl"
+#include "layouts/packing.glsl"
 #include "sim/collision/colliders.glsl"
 
 struct Guarded {
@@ -11,12 +12,13 @@ struct Guarded {
 };
 
 #ifdef PAIRS
-vec4 clips[kClipsOfNode];
-uint clip_count;
-vec4 clip(uint k) { return clips[k]; }
+layout(std430) readonly buffer HalfSpaces { vec4 half_spaces[]; };  // four a pair, one for each of its nodes
+layout(std430) buffer ClipLinks { uint clip_links[]; };             // to the next half space of the node, or kNone
+vec4 half_space(uint clip) { return half_spaces[clip]; }
+uint next_clip(uint clip) { return clip_links[clip]; }
 #else
-const uint clip_count = 0u;
-vec4 clip(uint k) { return vec4(0.0, 0.0, 0.0, 1e30); }
+vec4 half_space(uint clip) { return vec4(0.0); }
+uint next_clip(uint clip) { return kNone; }
 #endif
 
 // No island as a whole goes into a plane.
@@ -36,33 +38,38 @@ vec4 beside_collider(uint p, Guarded node) {
     return vec4(-start.xyz, start.w - least + dot(start.xyz, node.frame));
 }
 
-// Pairs first; of colliders the last first.
-vec4 half_space(uint k, Guarded node) {
-    return k < clip_count ? clip(k) : beside_collider(clip_count + collider_ends.w - 1u - k, node);
+// @return whether d was outside
+bool project(vec4 space, float tiny, inout vec3 d) {
+    float over = dot(space.xyz, d) - space.w;
+    if (!(over > tiny)) return false;
+    d -= over * space.xyz;
+    return true;
 }
 
+// What is left of d, at most.
+float part_inside(vec4 space, vec3 d) {
+    float along = dot(space.xyz, d);
+    return along > space.w ? max(space.w, 0.0) / along : 1.0;
+}
+
+// Pairs first; of colliders the last first. @param first of the list, or kNone
 // @return what the half spaces leave of the displacement in the frame; w: whether there are any
-vec4 place(Guarded node) {
+vec4 place(Guarded node, uint first) {
     vec3 d = node.to - node.from - node.frame;
     float tiny = 1e-6 * length(d), part = 1.0;
-    uint count = clip_count + collider_ends.w;
-    bool any = false, is_outside = true;
+    bool any = first != kNone, is_outside = true;
     for (uint projection = 0u; projection < kProjections && is_outside; ++projection) {
         is_outside = false;
-        for (uint k = 0u; k < count; ++k) {
-            vec4 space = half_space(k, node);
+        for (uint clip = first; clip != kNone; clip = next_clip(clip))
+            if (project(half_space(clip), tiny, d)) is_outside = true;
+        for (uint p = collider_ends.w; p-- > 0u;) {
+            vec4 space = beside_collider(p, node);
             if (space.w >= 1e30) continue;
             any = true;
-            float over = dot(space.xyz, d) - space.w;
-            if (!(over > tiny)) continue;
-            d -= over * space.xyz;
-            is_outside = true;
+            if (project(space, tiny, d)) is_outside = true;
         }
     }
-    for (uint k = 0u; any && k < count; ++k) {
-        vec4 space = half_space(k, node);
-        float along = dot(space.xyz, d);
-        if (along > space.w) part = min(part, max(space.w, 0.0) / along);
-    }
+    for (uint clip = first; clip != kNone; clip = next_clip(clip)) part = min(part, part_inside(half_space(clip), d));
+    for (uint p = 0u; any && p < collider_ends.w; ++p) part = min(part, part_inside(beside_collider(p, node), d));
     return vec4(part * d, any ? 1.0 : 0.0);
 }

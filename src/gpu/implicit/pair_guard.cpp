@@ -56,7 +56,6 @@ PairGuard::PairGuard(const Model& model, StepState& state, PairBuffers& pairs)
       found_(std::vector<GuardState>(1)),
       dispatches_(std::vector<Dispatch>(2 * (kGuardRounds + 1))),
       node_clips_(std::vector<NodeClips>(node_count_)),
-      clip_lists_(std::vector<std::uint32_t>(std::size_t{contact_tuning::kClipsOfNode} * node_count_)),
       marks_(std::vector<std::uint32_t>(object_count_)),
       wanted_(node_count_, gl::TexelFormat::rgba32f),
       frames_(object_count_, gl::TexelFormat::rgba32f) {
@@ -69,7 +68,8 @@ PairGuard::PairGuard(const Model& model, StepState& state, PairBuffers& pairs)
 
 void PairGuard::resize() {
     const std::size_t pairs = std::max<std::size_t>(pairs_->capacity.pairs, 1);
-    pair_clips_ = gl::Buffer<glm::vec4>(std::vector<glm::vec4>(pairs));
+    half_spaces_ = gl::Buffer<glm::vec4>(std::vector<glm::vec4>(4 * pairs));
+    clip_links_ = gl::Buffer<std::uint32_t>(std::vector<std::uint32_t>(4 * pairs));
     for (const gl::Program* program : programs_.all()) {
         state_->bind(*program);
         pairs_->bind(*program);
@@ -79,8 +79,8 @@ void PairGuard::resize() {
         bind("Guard", found_);
         bind("Dispatches", dispatches_);
         bind("Clips", node_clips_);
-        bind("ClipLists", clip_lists_);
-        bind("PairClips", pair_clips_);
+        bind("HalfSpaces", half_spaces_);
+        bind("ClipLinks", clip_links_);
         bind("FrameSums", frame_sums_);
         bind("Marks", marks_);
         bind("Wanted", wanted_.values);

@@ -58,8 +58,8 @@ private:
     gl::Buffer<GuardState> found_;
     gl::Buffer<Dispatch> dispatches_;       // by round: nodes, its pairs; the last: of what stays
     gl::Buffer<NodeClips> node_clips_;      // by node
-    gl::Buffer<std::uint32_t> clip_lists_;  // by node
-    gl::Buffer<glm::vec4> pair_clips_;      // by pair
+    gl::Buffer<glm::vec4> half_spaces_;     // four a pair, one for each of its nodes
+    gl::Buffer<std::uint32_t> clip_links_;  // of half spaces
     gl::Buffer<double> frame_sums_;         // by chunk
     gl::Buffer<std::uint32_t> marks_;       // by object
     StepBuffer<glm::vec4> wanted_, frames_;

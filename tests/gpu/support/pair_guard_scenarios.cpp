@@ -98,6 +98,8 @@ bool is_sound(const Wishes& wishes, const Guarded& guarded) {
 // @param tolerance of ends [m]
 double parity_error(const Wishes& wishes, double tolerance) {
     const Guarded actual = guard_on_gpu(wishes), expected = guard_on_cpu(wishes);
+    if (getenv("GUARD_PRINT"))
+        printf("  P runs %d %d, clipped %zu %zu, changed %d %d, sound %d diff %g %g\n", actual.runs, expected.runs, actual.clipped, expected.clipped, actual.is_changed, expected.is_changed, is_sound(wishes, actual), largest_difference(actual.ends, expected.ends), largest_difference(actual.path_ends, expected.path_ends));
     if (actual.is_changed != expected.is_changed || actual.clipped != expected.clipped ||
         actual.runs != expected.runs || !is_sound(wishes, actual))
         return error_if(true);
@@ -167,6 +169,8 @@ double handle_error(const glm::dvec3& motion, bool is_blocked) {
         {0, 0, 0}, walls);
     const Wishes wishes = wish(model, by({motion}));
     const Guarded actual = guard_on_gpu(wishes), expected = guard_on_cpu(wishes);
+    if (getenv("GUARD_PRINT"))
+        printf("  H runs %d %d, clipped %zu %zu, sound %d held back %g %g\n", actual.runs, expected.runs, actual.clipped, expected.clipped, is_sound(wishes, actual), held_back(wishes, actual.ends), held_back(wishes, expected.ends));
     if (!is_sound(wishes, actual)) return error_if(true);
     bool same = true;  // whether what is held goes where it goes on the CPU
     for (std::size_t n = 0; n < actual.ends.size(); ++n)
