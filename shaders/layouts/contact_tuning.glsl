@@ -49,5 +49,3 @@ const float kShortestPiece = 1.0 / 16.0;
 const uint kMostGuards = 10u;
 // In each of so many rounds nodes are placed, and pairs of those that have moved are checked; at most 30.
 const uint kGuardRounds = 8u;
-// Half spaces of a node, at most; one with more stays where it is in the frame.
-const uint kClipsOfNode = 16u;

@@ -9,5 +9,5 @@ struct GuardState {      // 16 bytes
 // What it knows of a node.
 struct NodeClips {       // 8 bytes
     uint  rounds;        // bit r: it is placed in round r; the last bit: it stays where it is in the frame
-    uint  count;         // of pairs that are clipped
+    uint  first;         // of its half spaces, or kNone
 };

@@ -181,7 +181,7 @@ TEST_F(LayoutsTest, PairGuard) {
           {FIELD(GuardState, is_changed), FIELD(GuardState, needs_again), FIELD(GuardState, clipped),
            FIELD(GuardState, is_given_up)});
     check("pair_guard.glsl", "NodeClips", sizeof(NodeClips),
-          {FIELD(NodeClips, rounds), FIELD(NodeClips, count)});
+          {FIELD(NodeClips, rounds), FIELD(NodeClips, first)});
 }
 
 TEST_F(LayoutsTest, Draw) {

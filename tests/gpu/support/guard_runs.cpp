@@ -190,31 +190,36 @@ bool may_touch(const cpu::Moving<double, 3>& a, const cpu::Moving<double, 3>& b,
 
 }  // namespace
 
+template <class Real>
 Guarded guard_on_cpu(const Wishes& wishes) {
     const Model& model = *wishes.model;
     const auto surface = std::make_shared<const ContactSurface>(make_contact_surface(model, {}));
-    GuardedWays<double> ways(wishes, *surface);
-    cpu::FindPairs<double> finder(wishes.model, surface, wishes.own);
-    cpu::Guard<double> guard(wishes.model, surface);
+    GuardedWays<Real> ways(wishes, *surface);
+    cpu::FindPairs<Real> finder(wishes.model, surface, wishes.own);
+    cpu::Guard<Real> guard(wishes.model, surface);
     Guarded result;
-    result.ends = converted<double>(wishes.ends);
+    std::vector<cpu::Vec4<Real>> ends = converted<Real>(wishes.ends);
     finder.begin(ways.paths());
     finder.run(ways.paths());
     while (result.runs < tuning::kMostGuards) {
         const std::vector<std::uint32_t> strays =
-            guard.run(ways.paths(), finder.pairs(), ways.compliances, result.ends);
+            guard.run(ways.paths(), finder.pairs(), ways.compliances, ends);
         if (++result.runs == 1) result.clipped = guard.clipped_pairs();
-        const bool has_lost = finder.find_lost(result.ends) || wishes.loses_always;
+        const bool has_lost = finder.find_lost(ends) || wishes.loses_always;
         result.is_changed = result.is_changed || guard.has_changed();
-        for (const std::uint32_t n : strays) ways.to[n] = result.ends[n];
-        result.path_ends = ways.to;
+        for (const std::uint32_t n : strays) ways.to[n] = ends[n];
+        result.path_ends = {ways.to.begin(), ways.to.end()};
+        result.ends = {ends.begin(), ends.end()};
         if (strays.empty() && !has_lost) return result;
         finder.update(ways.paths(), strays);
     }
     result.is_changed = result.is_given_up = true;
-    result.ends = ways.from;
+    result.ends = {ways.from.begin(), ways.from.end()};
     return result;
 }
+
+template Guarded guard_on_cpu<float>(const Wishes& wishes);
+template Guarded guard_on_cpu<double>(const Wishes& wishes);
 
 Guarded guard_on_gpu(const Wishes& wishes) {
     return GuardOnGpu(wishes).run();

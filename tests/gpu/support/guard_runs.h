@@ -31,7 +31,8 @@ struct Guarded {
     int runs = 0;
 };
 
-/// cpu::ImplicitStep<double>::guard.
+/// cpu::ImplicitStep<Real>::guard.
+template <class Real>
 Guarded guard_on_cpu(const Wishes& wishes);
 /// gpu::PairGuard, with pairs of the CPU.
 Guarded guard_on_gpu(const Wishes& wishes);
