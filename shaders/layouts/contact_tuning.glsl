@@ -44,3 +44,11 @@ const float kAtRest = 0.001;
 const float kInIsland = 0.1;
 const float kRoundings = 2.0;
 const float kKept = 0.1;
+// The guard of pairs.
+const float kLeastOfRounding = 8.0;
+const float kUsable = 0.95;
+const float kLeastShare = 0.05;
+const float kShortestPiece = 1.0 / 16.0;
+const uint kMostGuards = 10u;
+// In each of so many rounds nodes are placed, and pairs of those that have moved are checked; at most 30.
+const uint kGuardRounds = 8u;

@@ -25,6 +25,7 @@ using glm::vec4;
 #include "layouts/near_pair.glsl"
 #include "layouts/object_pair.glsl"
 #include "layouts/pair_rows.glsl"
+#include "layouts/pair_guard.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
 #include "layouts/shape_match.glsl"
@@ -65,6 +66,7 @@ static_assert(sizeof(Face) == 16);
 static_assert(sizeof(FaceEdge) == 16);
 static_assert(sizeof(FacePair) == 16);
 static_assert(sizeof(FitSums) == 48);
+static_assert(sizeof(GuardState) == 16);
 static_assert(sizeof(HalfSpringPair) == 16);
 static_assert(sizeof(HandleMotion) == 128);
 static_assert(sizeof(HandleNode) == 32);
@@ -74,6 +76,7 @@ static_assert(sizeof(NearObject) == 16);
 static_assert(sizeof(NearPair) == 80);
 static_assert(sizeof(NeoHookeanStep) == 64);
 static_assert(sizeof(NodeBlock) == 32);
+static_assert(sizeof(NodeClips) == 8);
 static_assert(sizeof(NodeLoad) == 32);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
@@ -137,6 +140,7 @@ using layouts::Face;
 using layouts::FaceEdge;
 using layouts::FacePair;
 using layouts::FitSums;
+using layouts::GuardState;
 using layouts::HalfSpringPair;
 using layouts::HandleMotion;
 using layouts::HandleNode;
@@ -146,6 +150,7 @@ using layouts::NearObject;
 using layouts::NearPair;
 using layouts::NeoHookeanStep;
 using layouts::NodeBlock;
+using layouts::NodeClips;
 using layouts::NodeLoad;
 using layouts::NodeSums;
 using layouts::ObjectPair;

@@ -198,6 +198,14 @@ TEST_F(LayoutsTest, PairRows) {
            FIELD(BodyPlace, node_chunk)});
 }
 
+TEST_F(LayoutsTest, PairGuard) {
+    check("pair_guard.glsl", "GuardState", sizeof(GuardState),
+          {FIELD(GuardState, is_changed), FIELD(GuardState, needs_again), FIELD(GuardState, clipped),
+           FIELD(GuardState, is_given_up)});
+    check("pair_guard.glsl", "NodeClips", sizeof(NodeClips),
+          {FIELD(NodeClips, rounds), FIELD(NodeClips, first)});
+}
+
 TEST_F(LayoutsTest, Draw) {
     check("draw.glsl", "Draw", sizeof(Draw),
           {FIELD(Draw, count), FIELD(Draw, instance_count), FIELD(Draw, first), FIELD(Draw, first_instance)});

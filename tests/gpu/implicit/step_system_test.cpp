@@ -65,6 +65,11 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kAtRest, static_cast<float>(cpu::kAtRest));
     EXPECT_EQ(gpu::kInIsland, static_cast<float>(cpu::kInIsland));
     EXPECT_EQ(gpu::kKept, static_cast<float>(cpu::kKept));
+    EXPECT_EQ(gpu::kLeastOfRounding, static_cast<float>(cpu::kLeastOfRounding));
+    EXPECT_EQ(gpu::kUsable, static_cast<float>(cpu::kUsable));
+    EXPECT_EQ(gpu::kLeastShare, static_cast<float>(cpu::kLeastShare));
+    EXPECT_EQ(gpu::kShortestPiece, static_cast<float>(cpu::kShortestPiece));
+    EXPECT_EQ(gpu::kMostGuards, static_cast<std::uint32_t>(cpu::kMostGuards));
     EXPECT_EQ(gpu::kRoundings, static_cast<float>(cpu::kRoundings));
 }
 

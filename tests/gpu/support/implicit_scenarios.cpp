@@ -15,9 +15,10 @@
 #include "cpu/implicit/step_system.h"
 #include "gpu/implicit/elastic_system.h"
 #include "gpu/implicit/step_system.h"
+#include "gpu/support/pair_guard_scenarios.h"
+#include "gpu/support/pair_rows_scenarios.h"
 #include "gpu/support/pair_scenarios.h"
 #include "gpu/support/part_end_scenarios.h"
-#include "gpu/support/pair_rows_scenarios.h"
 #include "gpu/support/part_start_scenarios.h"
 #include "model/shared_constants.h"
 #include "support/contact_scenes.h"
@@ -496,6 +497,7 @@ void run_implicit_programs() {
     run_part_start();
     run_find_pairs();
     run_pair_rows();
+    run_pair_guard();
 }
 
 }  // namespace gelatin::test

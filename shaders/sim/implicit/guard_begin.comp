@@ -1,0 +1,63 @@
+// Where the guard of pairs begins: where nodes are wanted, and by chunk what they have in common; a work group a chunk.
+// CPU twin: gelatin::cpu::Guard::find_frames. Parity: tests/gpu/implicit/pair_guard_test.cpp.
+const uint kSums = 5u;
+#define WRITES_DISPATCHES
+#include "sim/collision/dispatches.glsl"
+#include "sim/implicit/guarded_pairs.glsl"
+#include "sim/implicit/lane_sums.glsl"
+layout(local_size_x = 64) in;
+
+uniform usamplerBuffer chunks;  // object, first, count, origin
+uniform uint chunk_count;
+uniform uint pair_capacity;
+layout(std430) readonly buffer Counts { PairCounts counts[]; };
+layout(std430) buffer EndPositions { vec4 end_positions[]; };
+layout(std430) writeonly buffer Wanted { vec4 wanted_positions[]; };
+layout(std430) writeonly buffer Clips { NodeClips node_clips[]; };
+layout(std430) writeonly buffer FrameSums { double frame_sums[]; };  // by chunk: mass, mass times displacement, held nodes
+layout(std430) buffer Guard { GuardState guard[]; };
+
+// Nothing is dispatched yet, but for the first round's pairs; `count` has the groups of a row for those who do.
+Dispatch waiting(uint invocations) {
+    Dispatch all = dispatch_invocations(invocations);
+    return Dispatch(0u, all.groups_y, 1u, all.groups_x);
+}
+
+void begin() {
+    guard[0] = GuardState(clock[0].guards == 0u ? 0u : guard[0].is_changed, 0u, 0u, 0u);
+    Dispatch pairs = waiting(min(counts[0].pairs, pair_capacity)), nodes = waiting(node_count);
+    for (uint r = 0u; r <= kGuardRounds; ++r) {
+        dispatches[2u * r] = pairs;
+        dispatches[2u * r + 1u] = nodes;
+    }
+    dispatches[0].groups_x = pairs.count;
+}
+
+void main() {
+    uint c = group_index(), lane = gl_LocalInvocationID.x;
+    if (c >= chunk_count || !goes_on()) return;
+    if (c == 0u && lane == 0u) begin();
+    uvec4 chunk = texelFetch(chunks, int(c));
+    double sums[kSums] = double[](0.0LF, 0.0LF, 0.0LF, 0.0LF, 0.0LF);
+    for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
+        vec4 end = end_positions[n];
+        vec3 from = start_of(n);
+        if (any(isnan(end)) || any(isinf(end))) {  // of a solve that has failed
+            end.xyz = from;
+            end_positions[n] = end;
+        }
+        wanted_positions[n] = end;
+        node_clips[n] = NodeClips(0u, kNone);
+        if (end.w == 0.0) {
+            sums[4] += 1.0LF;
+            continue;
+        }
+        double mass = 1.0LF / double(end.w);
+        dvec3 moved = mass * dvec3(end.xyz - from);
+        sums[0] += mass;
+        for (int k = 0; k < 3; ++k) sums[1 + k] += moved[k];
+    }
+    for (uint k = 0u; k < kSums; ++k) put_sum(k, sums[k]);
+    barrier();
+    if (lane < kSums) frame_sums[c * kSums + lane] = sum_of_lanes(lane);
+}

@@ -1,0 +1,75 @@
+// Half spaces that a node keeps to: of its displacement d in the frame, n . d <= w. CPU twin: gelatin::cpu::Guard.
+// PAIRS: those of pairs, too; a list.
+#include "layouts/contact_tuning.glsl"
+#include "layouts/packing.glsl"
+#include "sim/collision/colliders.glsl"
+
+struct Guarded {
+    vec3 from;
+    vec3 to;          // where it is wanted
+    vec3 frame;       // what its island has in common [m]
+    float thickness;  // of its object [m]
+};
+
+#ifdef PAIRS
+layout(std430) readonly buffer HalfSpaces { vec4 half_spaces[]; };  // four a pair, one for each of its nodes
+layout(std430) buffer ClipLinks { uint clip_links[]; };             // to the next half space of the node, or kNone
+vec4 half_space(uint clip) { return half_spaces[clip]; }
+uint next_clip(uint clip) { return clip_links[clip]; }
+#else
+vec4 half_space(uint clip) { return vec4(0.0); }
+uint next_clip(uint clip) { return kNone; }
+#endif
+
+// No island as a whole goes into a plane.
+vec3 outside_planes(vec3 frame) {
+    for (uint p = 0u; p < collider_ends.x; ++p) {
+        vec3 normal = collider_center(p).xyz;
+        frame -= min(dot(normal, frame), 0.0) * normal;
+    }
+    return frame;
+}
+
+// Of a collider that a node does not come too near to w is infinite.
+vec4 beside_collider(uint p, Guarded node) {
+    vec4 start = distance_to_collider(p, node.from);
+    float least = min(min(kLeastOfReach * node.thickness, kLeastOfGap * start.w), start.w);
+    if (distance_to_collider(p, node.to).w >= least) return vec4(0.0, 0.0, 0.0, 1e30);
+    return vec4(-start.xyz, start.w - least + dot(start.xyz, node.frame));
+}
+
+// @return whether d was outside
+bool project(vec4 space, float tiny, inout vec3 d) {
+    float over = dot(space.xyz, d) - space.w;
+    if (!(over > tiny)) return false;
+    d -= over * space.xyz;
+    return true;
+}
+
+// What is left of d, at most.
+float part_inside(vec4 space, vec3 d) {
+    float along = dot(space.xyz, d);
+    return along > space.w ? max(space.w, 0.0) / along : 1.0;
+}
+
+// Pairs first; of colliders the last first. @param first of the list, or kNone
+// @return what the half spaces leave of the displacement in the frame; w: whether there are any
+vec4 place(Guarded node, uint first) {
+    vec3 d = node.to - node.from - node.frame;
+    float tiny = 1e-6 * length(d), part = 1.0;
+    bool any = first != kNone, is_outside = true;
+    for (uint projection = 0u; projection < kProjections && is_outside; ++projection) {
+        is_outside = false;
+        for (uint clip = first; clip != kNone; clip = next_clip(clip))
+            if (project(half_space(clip), tiny, d)) is_outside = true;
+        for (uint p = collider_ends.w; p-- > 0u;) {
+            vec4 space = beside_collider(p, node);
+            if (space.w >= 1e30) continue;
+            any = true;
+            if (project(space, tiny, d)) is_outside = true;
+        }
+    }
+    for (uint clip = first; clip != kNone; clip = next_clip(clip)) part = min(part, part_inside(half_space(clip), d));
+    for (uint p = 0u; any && p < collider_ends.w; ++p) part = min(part, part_inside(beside_collider(p, node), d));
+    return vec4(part * d, any ? 1.0 : 0.0);
+}
