@@ -24,7 +24,7 @@ Dispatch waiting(uint invocations) {
 }
 
 void begin() {
-    guard[0] = GuardState(clock[0].guards == 0u ? 0u : guard[0].is_changed, 0u, 0u, 0u);
+    guard[0] = GuardState(clock[0].guards == 0u ? 0u : guard[0].is_changed, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     Dispatch pairs = waiting(min(counts[0].pairs, pair_capacity)), nodes = waiting(node_count);
     for (uint r = 0u; r <= kGuardRounds; ++r) {
         dispatches[2u * r] = pairs;

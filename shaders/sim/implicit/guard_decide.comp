@@ -1,11 +1,8 @@
-// Whether the guard of pairs is done: else this try ends, and the next one goes on with it. One that has run too often lets nothing move.
-// One invocation. CPU twin: gelatin::cpu::ImplicitStep::guard. Parity: tests/gpu/implicit/pair_guard_test.cpp.
-#define WRITES_DISPATCHES
-#include "layouts/contact_tuning.glsl"
+// Whether the guard of pairs is done: then no other pass of it goes on until guard_close.comp. One invocation.
+// CPU twin: gelatin::cpu::ImplicitStep::guard. Parity: tests/gpu/implicit/pair_guard_test.cpp.
 #include "layouts/near_pair.glsl"
 #include "layouts/pair_guard.glsl"
 #include "layouts/step_state.glsl"
-#include "sim/collision/dispatches.glsl"
 layout(local_size_x = 1) in;
 
 layout(std430) buffer Clock { StepClock clock[]; };
@@ -13,16 +10,15 @@ layout(std430) readonly buffer Counts { PairCounts counts[]; };
 layout(std430) buffer Guard { GuardState guard[]; };
 
 void main() {
-    if (clock[0].goes_on == 0u) return;
-    uint guards = clock[0].guards + 1u;
-    clock[0].guards = 0u;
-    if (guard[0].needs_again == 0u && counts[0].has_lost == 0u) return;
-    if (guards < kMostGuards) {
-        clock[0].guards = guards;
-        clock[0].goes_on = 0u;
-        return;
+    StepClock now = clock[0];
+    if (now.goes_on == 0u) return;
+    ++now.guards;
+    if (counts[0].is_full != 0u) {
+        now.is_full = 1u;
+        now.goes_on = 0u;
+    } else if (guard[0].needs_again == 0u && counts[0].has_lost == 0u) {
+        guard[0].is_done = 1u;
+        now.goes_on = 0u;
     }
-    guard[0].is_changed = guard[0].is_given_up = 1u;
-    uint last = 2u * kGuardRounds + 1u;  // guard_stay.comp
-    dispatches[last].groups_x = dispatches[last].count;
+    clock[0] = now;
 }

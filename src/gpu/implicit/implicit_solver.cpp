@@ -16,7 +16,8 @@ namespace gelatin::gpu {
 namespace {
 
 // Contacts with colliders, of nodes on surfaces; those within a body come near one only where it is crushed.
-RowCapacity capacity_of(const Model& model) {
+RowCapacity capacity_of(const Model& model, bool has_contacts) {
+    if (has_contacts) return BodyContacts::capacity_of(model);
     if (model.colliders.empty()) return {};
     return {model.colliders.size() * model.surface_parts.nodes.size(), model.body_count()};
 }
@@ -41,7 +42,7 @@ void pass(PartEnd::Memory& memory, std::vector<float>& lost_for, Archive& archiv
     archive.array(memory.planes);
     archive.array(memory.energies);
     archive.array(memory.meetings);
-    archive.array(memory.pair_meetings);
+    archive.list(memory.pair_meetings);
     archive.array(lost_for);
 }
 
@@ -59,9 +60,13 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
       divides_steps_(settings.divides_steps),
       surface_(make_contact_surface(*model_, collision)),
       state_(*model_, surface_),
-      system_(*model_, capacity_of(*model_), most_small_chunks()),
-      start_(*model_, state_, system_),
-      end_(*model_, state_, system_),
+      system_(*model_, capacity_of(*model_, has_contacts(*model_, collision)), most_small_chunks()),
+      contacts_(has_contacts(*model_, collision)
+                    ? std::optional<BodyContacts>(std::in_place, *model_, surface_, state_, system_,
+                                                  collision.self_collision.value_or(true))
+                    : std::nullopt),
+      start_(*model_, state_, system_, contacts_ ? &contacts_->rows : nullptr),
+      end_(*model_, state_, system_, contacts_ ? &surface_ : nullptr),
       shape_matcher_(*model_) {
     system_.iterations = settings.iterations;
     set_contact_distances({surface_.thicknesses.begin(), surface_.thicknesses.end()});
@@ -72,6 +77,7 @@ void ImplicitSolver::write_state(const State& state) {
     goes_on_ = false;
     if (restore(state.memory)) return;
     end_.forget();
+    if (contacts_) contacts_->rows.forget();
     shape_matcher_.forget();
     goes_on_ = has_earlier_;
 }
@@ -115,18 +121,41 @@ void ImplicitSolver::advance_nodes(const Step& step) {
 
 // And begins to ask whether they were enough.
 void ImplicitSolver::make_tries() {
-    StageTimer* const timer = timer_.for_parts();
-    for (std::uint32_t k = 0; k < tries_; ++k) {
-        if (loads_ != nullptr) loads_->run(state_.from);
-        start_.run(buffers_, loads_, timer);
-        {
-            const TimedStage part(timer, "advance_nodes.solve");
-            system_.solve(state_.from);
-        }
-        end_.run(buffers_, loads_, timer);
-    }
+    for (std::uint32_t k = 0; k < tries_; ++k) make_try();
     copy_nodes(state_.from, current_);
     clocks_.begin(state_.clock.id(), sizeof(StepClock));
+}
+
+void ImplicitSolver::make_try() {
+    StageTimer* const timer = timer_.for_parts();
+    if (loads_ != nullptr) loads_->run(state_.from);
+    if (contacts_) {
+        const TimedStage part(timer, "advance_nodes.detect");
+        start_.predict(buffers_, loads_);
+        contacts_->find(buffers_);
+    } else {
+        start_.predict(buffers_, loads_);
+    }
+    start_.make_system(buffers_, loads_, timer);
+    {
+        const TimedStage part(timer, "advance_nodes.solve");
+        system_.solve(state_.from);
+    }
+    if (!contacts_) return end_.run(buffers_, loads_, timer);
+    contacts_->note();
+    end_.finish(buffers_, loads_, timer);
+    {
+        const TimedStage part(timer, "advance_nodes.guard");
+        contacts_->guard(buffers_);
+    }
+    end_.settle(buffers_, timer);
+    contacts_->remember(end_.changes());
+}
+
+void ImplicitSolver::grow() {
+    contacts_->grow();
+    start_.bind_buffers();
+    end_.grow();
 }
 
 void ImplicitSolver::complete() {
@@ -134,11 +163,12 @@ void ImplicitSolver::complete() {
         StepClock clock;
         std::memcpy(&clock, clocks_.take().data(), sizeof(clock));
         tries_ = std::clamp(clock.tries + 1, 2u, 8u);
+        if (clock.is_full != 0) grow();
         if (clock.is_over == 0) {
             gl::barrier(gl::Barrier::storage);  // the copy has to have read the clock
             make_tries();
         }
-        if (clock.dropped_rows > 0 && !std::exchange(has_warned_, true))
+        if (!contacts_ && clock.dropped_rows > 0 && !std::exchange(has_warned_, true))
             log_warning(fmt::format(
                 "{} contacts with colliders had no place on the device; there nodes are only kept outside",
                 clock.dropped_rows));

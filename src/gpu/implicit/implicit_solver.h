@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "gl/readback.h"
 #include "gpu/gpu_solver.h"
+#include "gpu/implicit/body_contacts.h"
 #include "gpu/implicit/part_end.h"
 #include "gpu/implicit/part_start.h"
 #include "gpu/implicit/step_state.h"
@@ -36,12 +38,15 @@ protected:
 
 private:
     void make_tries();
+    void make_try();
+    void grow();
     bool restore(std::string_view bytes);
 
     bool divides_steps_;
     ContactSurface surface_;
     StepState state_;
     StepSystem system_;
+    std::optional<BodyContacts> contacts_;  // between bodies
     PartStart start_;
     PartEnd end_;
     ShapeMatcher shape_matcher_;  // of bodies that have lost their shape, before they move

@@ -38,10 +38,11 @@ PairGuard::Programs::Programs(const Model& model)
       pairs(guard_program("pairs")),
       end(guard_program("end")),
       decide(guard_program("decide")),
+      close(guard_program("close")),
       stay(guard_program("stay")) {}
 
 std::vector<const gl::Program*> PairGuard::Programs::all() const {
-    return {&begin, &frames, &nodes, &pairs, &end, &decide, &stay};
+    return {&begin, &frames, &nodes, &pairs, &end, &decide, &close, &stay};
 }
 
 PairGuard::PairGuard(const Model& model, StepState& state, PairBuffers& pairs)
@@ -63,10 +64,10 @@ PairGuard::PairGuard(const Model& model, StepState& state, PairBuffers& pairs)
     chunk_count_ = static_cast<std::uint32_t>(chunks.size());
     chunks_ = {chunks, gl::TexelFormat::rgba32ui};
     frame_sums_ = gl::Buffer<double>(std::vector<double>(kFrameSums * chunks.size()));
-    resize();
+    grow();
 }
 
-void PairGuard::resize() {
+void PairGuard::grow() {
     const std::size_t pairs = std::max<std::size_t>(pairs_->capacity.pairs, 1);
     half_spaces_ = gl::Buffer<glm::vec4>(std::vector<glm::vec4>(4 * pairs));
     clip_links_ = gl::Buffer<std::uint32_t>(std::vector<std::uint32_t>(4 * pairs));
@@ -124,6 +125,11 @@ void PairGuard::run(const ModelBuffers& model) const {
 
 void PairGuard::decide() const {
     programs_.decide.dispatch_groups(1);
+    wait_for_guard();
+}
+
+void PairGuard::close() const {
+    programs_.close.dispatch_groups(1);
     wait_for_guard();
     programs_.stay.dispatch_indirect(dispatches_.id(), (2 * kGuardRounds + 1) * sizeof(Dispatch));
     wait_for_guard();

@@ -18,21 +18,26 @@ namespace gelatin::gpu {
 ///
 /// Each pair is checked, and what fails is clipped, in contact_tuning::kGuardRounds rounds. Islands in which
 /// pairs fail after that move as a whole, or not at all. Where nodes end beside their paths, pairs of these
-/// have to be found anew, in a try that goes on with the guard alone (StepClock::guards).
+/// have to be found anew, for another pass (StepClock::guards).
 class PairGuard {
 public:
     /// @param state, pairs have to live as long
     PairGuard(const Model& model, StepState& state, PairBuffers& pairs);
 
-    /// After pairs has been given more places.
-    void resize();
+    /// After PairBuffers::grow.
+    void grow();
     /// Moves nodes of state.to, which are where they are wanted, and ends of their paths. Needs `islands`,
     /// and of state `from`, the compliances in predicted, and the clock. Ends with the barrier for whoever
     /// reads nodes or paths.
     void run(const ModelBuffers& model) const;
-    /// Then, after it is known what bodies have lost (PairCounts::has_lost): whether the try goes on, or the
-    /// next one runs the guard again. Ends with the barrier for whoever reads nodes or the clock.
+    /// Then, after it is known what bodies have lost (PairCounts::has_lost): whether that was all. If so,
+    /// nothing goes on until close(); else pairs are found anew, and it runs again. Ends with the barrier for
+    /// whoever reads the clock.
     void decide() const;
+    /// After the last pass: the try goes on with where nodes are now; or the part is halved, as no way was
+    /// found. In the shortest part nothing moves then. Ends with the barrier for whoever reads nodes or the
+    /// clock.
+    void close() const;
 
     /// Of each object: the first object of those with pairs in common, itself among them. GuardIslands,
     /// guard_islands.
@@ -44,7 +49,7 @@ private:
     struct Programs {
         explicit Programs(const Model& model);
         std::vector<const gl::Program*> all() const;
-        gl::Program begin, frames, nodes, pairs, end, decide, stay;
+        gl::Program begin, frames, nodes, pairs, end, decide, close, stay;
     };
     void run_round(const gl::Program& program, std::uint32_t round) const;
 

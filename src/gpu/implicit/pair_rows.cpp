@@ -75,9 +75,6 @@ PairRows::PairRows(const Model& model, const ContactSurface& surface, const Step
       collider_count_(static_cast<std::uint32_t>(model.colliders.size())),
       chunk_count_(system.buffers().chunk_count),
       kind_count_(surface.kind_count),
-      pair_groups_(groups_for(pairs.capacity.pairs, 64)),
-      slot_groups_(groups_for(pairs.capacity.slots, 1)),
-      row_groups_(groups_for(std::max<std::size_t>(4 * system.capacity().rows, node_count_), 64)),
       state_(state),
       system_(system),
       pairs_(pairs),
@@ -89,22 +86,42 @@ PairRows::PairRows(const Model& model, const ContactSurface& surface, const Step
       beside_edges_(surface.beside_edges, gl::TexelFormat::rg32ui),
       rest_positions_(model.positions, gl::TexelFormat::rgba32f),
       surface_velocities_(surface_velocities_of(model), gl::TexelFormat::rgba32f),
-      pair_weights_(pairs.capacity.pairs, gl::TexelFormat::rgba32ui),
-      slot_rows_(pairs.capacity.slots, gl::TexelFormat::rgba32ui),
-      row_places_(body_count_ + pairs.capacity.slots, gl::TexelFormat::rgba32ui),
       body_touches_(body_count_, gl::TexelFormat::rgba32ui),
       body_places_(body_count_, gl::TexelFormat::rgba32ui),
       body_starts_(body_count_, gl::TexelFormat::rgba32f),
       labels_(model.objects.size(), gl::TexelFormat::r32ui),
       chunk_entries_(chunk_count_, gl::TexelFormat::r32ui),
       entry_counts_(std::vector<std::uint32_t>(node_count_)),
-      row_notes_(std::vector<RowMemory>(system.capacity().rows)),
-      known_starts_(node_count_ + 1, gl::TexelFormat::r32ui),
-      known_entries_(4 * system.capacity().rows, gl::TexelFormat::r32ui),
-      known_rows_(system.capacity().rows, gl::TexelFormat::rgba32ui) {
-    assert(system.capacity().rows > 0);
-    assert(system.capacity().pairs >= body_count_ + pairs.capacity.slots);
+      known_starts_(node_count_ + 1, gl::TexelFormat::r32ui) {
     system.buffers().unite_islands();
+    make_room();
+    bind_buffers();
+}
+
+// For pairs and rows.
+void PairRows::make_room() {
+    const PairCapacity& pairs = pairs_.capacity;
+    const RowCapacity& rows = system_.capacity();
+    assert(rows.rows > 0 && rows.pairs >= body_count_ + pairs.slots);
+    pair_groups_ = groups_for(pairs.pairs, 64);
+    slot_groups_ = groups_for(pairs.slots, 1);
+    row_groups_ = groups_for(std::max<std::size_t>(4 * rows.rows, node_count_), 64);
+    pair_weights_ = {pairs.pairs, gl::TexelFormat::rgba32ui};
+    slot_rows_ = {pairs.slots, gl::TexelFormat::rgba32ui};
+    row_places_ = {body_count_ + pairs.slots, gl::TexelFormat::rgba32ui};
+    row_notes_ = gl::Buffer<RowMemory>(std::vector<RowMemory>(rows.rows));
+    known_entries_ = {4 * rows.rows, gl::TexelFormat::r32ui};
+    known_rows_ = {rows.rows, gl::TexelFormat::rgba32ui};
+}
+
+void PairRows::grow() {
+    const Memory known = memory();
+    make_room();
+    set_memory(known);
+    bind_buffers();
+}
+
+void PairRows::bind_buffers() const {
     for (const gl::Program* program : programs_.all()) {
         system_.buffers().bind(*program);
         state_.bind(*program);

@@ -26,6 +26,9 @@ public:
     PairRows(const Model& model, const ContactSurface& surface, const StepState& state, StepSystem& system,
              const PairBuffers& pairs);
 
+    /// After PairBuffers::grow and StepSystem::grow. What contacts held is known further on.
+    void grow();
+
     /// @name Stages of PartStart::run
     /// Each ends with the barrier for who reads what it has made.
     /// @{
@@ -66,11 +69,13 @@ private:
         gl::Program weigh, count_slot_rows, label, label_all, order, place, place_slot_rows, couple,
             sum_islands, count_entries, start_entries, make, sort, note, remember;
     };
+    void make_room();
+    void bind_buffers() const;
     void bind_tables(const gl::Program& program) const;
     void run(const gl::Program& program, std::size_t groups) const;
 
     std::uint32_t node_count_, body_count_, collider_count_, chunk_count_, kind_count_;
-    std::size_t pair_groups_, slot_groups_, row_groups_;
+    std::size_t pair_groups_ = 0, slot_groups_ = 0, row_groups_ = 0;
     const StepState& state_;
     const StepSystem& system_;
     const PairBuffers& pairs_;

@@ -105,6 +105,9 @@ PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system, const
       system_(&system),
       chunk_count_(system.buffers().chunk_count),
       object_count_(system.buffers().object_count),
+      collider_count_(static_cast<std::uint32_t>(model.colliders.size())),
+      body_node_count_(model.body_node_count()),
+      gravity_(model.gravity),
       has_colliders_(!model.colliders.empty()),
       masses_(model.masses),
       programs_(model, contacts),
@@ -114,11 +117,8 @@ PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system, const
       kinds_(contacts != nullptr ? contacts->kinds : std::vector<std::uint32_t>(1), gl::TexelFormat::r32ui),
       restitutions_(restitutions_of(contacts), gl::TexelFormat::r32f),
       kind_count_(contacts != nullptr ? contacts->kind_count : 1),
-      meeting_capacity_(programs_.has_restitution ? static_cast<std::uint32_t>(system.capacity().pairs) : 0),
       rigid_velocities_(object_count_, gl::TexelFormat::rgba32f),
       pair_dispatch_(std::vector<Dispatch>{{0, 1, 1, 0}}),
-      presses_(zeros(end_sums::kPairSums * meeting_capacity_)),
-      pair_meetings_(zeros(1 + 2 * end_sums::kPairMeeting * meeting_capacity_)),
       finish_sums_(zeros(end_sums::kFinishSums * chunk_count_)),
       energy_sums_(zeros(end_sums::kEnergySums * chunk_count_)),
       part_sums_(zeros(end_sums::kPartSums * chunk_count_)),
@@ -130,13 +130,37 @@ PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system, const
       energies_(unknown_energies(object_count_)),
       changes_(std::vector<BodyChange>(object_count_)) {
     for (const ModelObject& object : model.objects) nodes_.push_back(object.nodes);
-    bind_buffers(model);
+    make_room();
+    bind_buffers();
     bind_nodes();
 }
 
-// What never changes.
-void PartEnd::bind_buffers(const Model& model) const {
-    const auto gravity = static_cast<double>(glm::length(model.gravity));
+// For what pairs of objects have in common.
+void PartEnd::make_room() {
+    if (programs_.has_restitution) meeting_capacity_ = static_cast<std::uint32_t>(system_->capacity().pairs);
+    presses_ = zeros(end_sums::kPairSums * meeting_capacity_);
+    pair_meetings_ = zeros(1 + 2 * end_sums::kPairMeeting * meeting_capacity_);
+}
+
+void PartEnd::grow() {
+    gl::barrier(gl::Barrier::buffer_update);
+    const std::vector<double> meetings = read_pair_meetings();
+    make_room();
+    pair_meetings_.upload(meetings);
+    bind_buffers();
+}
+
+// Of all that there are, with their number.
+std::vector<double> PartEnd::read_pair_meetings() const {
+    std::vector<double> meetings(pair_meetings_.size());
+    pair_meetings_.download(meetings);
+    meetings.resize(1 + static_cast<std::size_t>(meetings[0]) * end_sums::kPairMeeting);
+    return meetings;
+}
+
+// What does not change from step to step.
+void PartEnd::bind_buffers() const {
+    const auto gravity = static_cast<double>(glm::length(gravity_));
     const double slow = static_cast<double>(contact_tuning::kRestingFall) * gravity;
     for (const gl::Program* program : programs_.all()) {
         state_->bind(*program);
@@ -156,11 +180,11 @@ void PartEnd::bind_buffers(const Model& model) const {
         program->bind_declared("BodyChanges", changes_);
         program->bind_declared("springs", springs_);
         program->bind_declared("elements", elements_);
-        program->set("gravity", model.gravity);
+        program->set("gravity", gravity_);
         program->set("slow", static_cast<float>(slow));
         program->set("resting_speed", static_cast<float>(2.0 * slow));
-        program->set("collider_count", static_cast<std::uint32_t>(model.colliders.size()));
-        program->set("body_node_count", model.body_node_count());
+        program->set("collider_count", collider_count_);
+        program->set("body_node_count", body_node_count_);
     }
     const Programs& p = programs_;
     for (const gl::Program* program : {&p.keep, &p.measure_guarded, &p.stop, &p.find_energies})
@@ -296,7 +320,7 @@ PartEnd::Memory PartEnd::empty_memory() const {
             std::vector<PlaneMemory>(state_->plane_memories.size()),
             std::vector<BodyEnergy>(energies_.size()),
             std::vector<double>(meetings_.size()),
-            std::vector<double>(pair_meetings_.size())};
+            {0.0}};
 }
 
 PartEnd::Memory PartEnd::memory() const {
@@ -307,7 +331,7 @@ PartEnd::Memory PartEnd::memory() const {
     state_->plane_memories.download(memory.planes);
     energies_.download(memory.energies);
     meetings_.download(memory.meetings);
-    pair_meetings_.download(memory.pair_meetings);
+    memory.pair_meetings = read_pair_meetings();
     return memory;
 }
 
@@ -318,7 +342,9 @@ void PartEnd::set_memory(const Memory& memory) {
     state_->plane_memories.upload(memory.planes);
     energies_.upload(memory.energies);
     meetings_.upload(memory.meetings);
-    pair_meetings_.upload(memory.pair_meetings);
+    std::vector<double> pair_meetings = memory.pair_meetings;
+    if (pair_meetings.size() > pair_meetings_.size()) pair_meetings = {0.0};
+    pair_meetings_.upload(pair_meetings);
 }
 
 // Accelerations are Euler's.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
 #include <vector>
@@ -34,6 +35,9 @@ public:
     /// @param contacts how objects press each other; null: they have no rows with each other
     PartEnd(const Model& model, StepState& state, StepSystem& system,
             const ContactSurface* contacts = nullptr);
+
+    /// After StepSystem::grow.
+    void grow();
 
     /// A step begins: finds the elastic energy of bodies in `from`, which may have been set from outside.
     void begin_step(const ModelBuffers& model) const;
@@ -76,6 +80,8 @@ public:
     const gl::Buffer<BodyEnergy>& energies() const { return energies_; }
     const gl::Buffer<double>& meetings() const { return meetings_; }
     const gl::Buffer<double>& pair_meetings() const { return pair_meetings_; }
+    /// What settle() has decided, by object; PairRows::remember needs it.
+    const gl::Buffer<BodyChange>& changes() const { return changes_; }
 
 private:
     struct Programs {
@@ -87,7 +93,9 @@ private:
         gl::Program tie_bodies, sum_guarded;  // with contacts
         gl::Program press_pairs, meet_pairs;  // with restitution
     };
-    void bind_buffers(const Model& model) const;
+    void bind_buffers() const;
+    void make_room();
+    std::vector<double> read_pair_meetings() const;
     void bind_contacts(const gl::Program& program) const;
     void bind_nodes() const;
     void run(const gl::Program& program, std::uint32_t groups) const;
@@ -96,7 +104,8 @@ private:
 
     StepState* state_;
     StepSystem* system_;
-    std::uint32_t chunk_count_, object_count_;
+    std::uint32_t chunk_count_, object_count_, collider_count_, body_node_count_;
+    glm::vec3 gravity_;          // [m/s^2]
     bool has_colliders_;         // else there is nothing to be kept outside
     std::vector<Range> nodes_;   // of objects
     std::vector<float> masses_;  // of nodes
@@ -106,7 +115,7 @@ private:
     gl::TexelTable<glm::vec4> node_objects_;
     gl::TexelTable<std::uint32_t> kinds_;  // of objects, and restitutions of two kinds
     gl::TexelTable<float> restitutions_;
-    std::uint32_t kind_count_, meeting_capacity_;
+    std::uint32_t kind_count_, meeting_capacity_ = 0;
     StepBuffer<BodyMotion> rigid_velocities_;     // by object
     gl::Buffer<Dispatch> pair_dispatch_;          // a work group a pair of the tables
     gl::Buffer<double> presses_, pair_meetings_;  // by pair of the tables; of objects

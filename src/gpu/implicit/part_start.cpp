@@ -63,7 +63,6 @@ PartStart::PartStart(const Model& model, const StepState& state, const StepSyste
     bind_buffers();
 }
 
-// What never changes.
 void PartStart::bind_buffers() const {
     std::vector<const gl::Program*> all = programs_.all();
     if (pairs_ != nullptr) {

@@ -26,6 +26,9 @@ public:
     PartStart(const Model& model, const StepState& state, const StepSystem& system,
               PairRows* pairs = nullptr);
 
+    /// After StepSystem::grow, or PairRows::grow.
+    void bind_buffers() const;
+
     /// Once, when velocities of held nodes take them to where handles want them. @param size of the step [s]
     /// @param divides whether it is divided where bodies touch others
     void begin_step(double size, bool divides) const;
@@ -47,7 +50,6 @@ private:
             find_targets, find_enough, sum_motions, follow_rotation;
         bool has_planes;
     };
-    void bind_buffers() const;
     void find_rows(const ModelBuffers& model, bool has_forces) const;
     void run(const gl::Program& program, std::uint32_t groups) const;
 

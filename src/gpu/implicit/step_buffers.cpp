@@ -55,10 +55,16 @@ StepBuffers::StepBuffers(const Model& model, const RowCapacity& capacity, std::u
     lacks_ = {chunks.size(), r32f};
     step_sums_ = {chunks.size(), gl::TexelFormat::rg32f};
     island_chunks_ = {chunks.size(), r32ui};
+    entry_starts_ = {nodes + 1, r32ui};  // without rows, too: who gathers them finds none
+    grow(capacity);
+}
+
+void StepBuffers::grow(const RowCapacity& capacity) {
+    const auto rgba32f = gl::TexelFormat::rgba32f, rgba32ui = gl::TexelFormat::rgba32ui;
+    const auto r32ui = gl::TexelFormat::r32ui;
     const std::size_t most_rows = capacity.rows,
                       most_chunks = most_rows / contact_tuning::kRowsOfChunk + capacity.pairs;
     rows = {most_rows, rgba32ui};
-    entry_starts_ = {nodes + 1, r32ui};  // without rows, too: who gathers them finds none
     row_entries_ = {4 * most_rows, r32ui};
     couplings_ = {2 * capacity.pairs, r32ui};
     pairs_ = {capacity.pairs, rgba32ui};

@@ -47,6 +47,8 @@ public:
 
     /// What the program's source names; but for what is bound to it by another name.
     void bind(const gl::Program& program) const;
+    /// Makes room for other rows than before, which are lost. What was bound has to be bound again.
+    void grow(const RowCapacity& capacity);
     /// As StepSystem has it.
     void set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies);
 

@@ -83,6 +83,13 @@ void StepSystem::bind_buffers() const {
     rows_->begin_again.bind("element_blocks", elastic.block_texels());
 }
 
+void StepSystem::grow(const RowCapacity& capacity) {
+    assert(rows_);
+    capacity_ = capacity;
+    buffers_.grow(capacity);
+    bind_buffers();
+}
+
 void StepSystem::set_rows(std::span<const StepRow> rows, std::span<const std::uint32_t> islands_of_bodies) {
     assert(rows.size() <= capacity_.rows);
     row_count_ = static_cast<std::uint32_t>(rows.size());

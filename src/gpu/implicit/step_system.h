@@ -42,6 +42,9 @@ public:
     gl::Buffer<float>& enough() { return buffers_.enough.values; }
     /// For programs of other stages of a part.
     StepBuffers& buffers() { return buffers_; }
+    /// Makes room for other rows than before, which are lost. All programs that StepBuffers::bind was called
+    /// for have to be bound again. @pre there was room for some
+    void grow(const RowCapacity& capacity);
     int iterations = 10;  ///< of conjugate gradients for each linearisation, at most; twice without rows
 
     /// @param rows of objects; packing::kNone: a plane

@@ -69,7 +69,6 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kUsable, static_cast<float>(cpu::kUsable));
     EXPECT_EQ(gpu::kLeastShare, static_cast<float>(cpu::kLeastShare));
     EXPECT_EQ(gpu::kShortestPiece, static_cast<float>(cpu::kShortestPiece));
-    EXPECT_EQ(gpu::kMostGuards, static_cast<std::uint32_t>(cpu::kMostGuards));
     EXPECT_EQ(gpu::kRoundings, static_cast<float>(cpu::kRoundings));
 }
 

@@ -101,13 +101,15 @@ public:
             pairs_ = gpu::PairBuffers(model_, {1, 1, 1, 8 * finder_.pairs().size() + 64});
             pairs_.path_ends.values.upload(ways_.to);
             pairs_.slacks.values.upload(ways_.slacks);
-            guard_.resize();
+            guard_.grow();
         }
     }
 
     Guarded run() {
         Guarded result;
         StepClock clock{};
+        clock.size = clock.step = 1.0f / 240.0f;  // the CPU's guard does not halve parts
+        clock.step /= static_cast<float>(contact_tuning::kMostParts);
         do {
             upload_pairs();
             clock.goes_on = 1;
@@ -119,7 +121,8 @@ public:
             guard_.decide();
             clock = downloaded(state_.clock)[0];
             follow_paths();
-        } while (clock.guards > 0);
+        } while (clock.goes_on != 0 && result.runs < tuning::kMostGuards);
+        guard_.close();
         const GuardState found = downloaded(guard_.found())[0];
         result.is_changed = found.is_changed != 0;
         result.is_given_up = found.is_given_up != 0;

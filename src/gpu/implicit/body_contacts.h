@@ -1,0 +1,57 @@
+#pragma once
+
+#include "gl/buffer.h"
+#include "gpu/implicit/find_pairs.h"
+#include "gpu/implicit/pair_buffers.h"
+#include "gpu/implicit/pair_guard.h"
+#include "gpu/implicit/pair_rows.h"
+#include "gpu/implicit/step_state.h"
+#include "gpu/implicit/step_system.h"
+#include "gpu/model_buffers.h"
+#include "model/contact/contact_surface.h"
+#include "model/model.h"
+
+namespace gelatin::gpu {
+
+/// What contact between bodies, of bodies with themselves, and with surfaces of colliders adds to a try of a
+/// part: near pairs of surfaces, their rows in the system, and the guard. The order of a try:
+/// PartStart::predict, find(), PartStart::make_system, StepSystem::solve, note(), PartEnd::finish, guard(),
+/// PartEnd::settle, remember(). CPU twin: cpu::ImplicitStep.
+class BodyContacts {
+public:
+    /// @param own whether bodies meet themselves
+    /// @param state, system have to live as long
+    /// @pre the system's capacity is capacity_of(model)
+    BodyContacts(const Model& model, const ContactSurface& surface, StepState& state, StepSystem& system,
+                 bool own);
+
+    /// Of the system, for usual cases.
+    static RowCapacity capacity_of(const Model& model);
+
+    /// Pairs that may come near each other where nodes go by state.predicted. Ends with the barrier for
+    /// PartStart::make_system.
+    void find(const ModelBuffers& model) const;
+    /// What contacts hold, after the solve.
+    void note() const { rows.note(); }
+    /// Nodes of state.to, as PartEnd::finish wants them, go as far as nothing crosses. Ends with the barrier
+    /// for PartEnd::settle.
+    void guard(const ModelBuffers& model) const;
+    /// If the part is made, what contacts held in it. @param changes of PartEnd::settle
+    void remember(const gl::Buffer<BodyChange>& changes) const { rows.remember(changes); }
+
+    /// Makes room for what had none, when the clock says that a list was full. Then PartStart and PartEnd have
+    /// to be bound anew. Blocks until the device has ended its tries.
+    void grow();
+
+    PairBuffers pairs;
+    FindPairs finder;
+    PairRows rows;
+
+private:
+    StepState* state_;
+    StepSystem* system_;
+    std::size_t plane_rows_;  // most contacts with planes
+    PairGuard guard_;
+};
+
+}  // namespace gelatin::gpu
