@@ -74,6 +74,17 @@ SharedModel colliding_blocks() {
     return std::make_shared<const Model>(pack_bodies({lower, upper}, {rough_floor()}, {0.0, -9.81, 0.0}));
 }
 
+// On a box, whose surface moves as a belt does.
+SharedModel block_on_a_table() {
+    Body body = soft_block({3, 3, 3}, {0.0, 0.11, 0.0});
+    body.velocity = {0.3, -1.0, 0.0};
+    ColliderDescription table;
+    table.shape = Shape(BoxShape{{1.0, 0.2, 1.0}});
+    table.friction = 0.4;
+    table.surface_velocity = {0.0, 0.0, 0.5};
+    return std::make_shared<const Model>(pack_bodies({body}, {table}, {0.0, -9.81, 0.0}));
+}
+
 std::vector<Pull> hand_at_the_end(const Model& model) {
     Pull hand;
     hand.target = {0.7, 0.5, 0.2};
@@ -88,6 +99,7 @@ struct StepRun {
     SharedModel model;
     bool divides, is_pulled;
     int steps;
+    CollisionResponse response = CollisionResponse::restore;
 };
 
 void PrintTo(const StepRun& run, std::ostream* out) {
@@ -96,7 +108,7 @@ void PrintTo(const StepRun& run, std::ostream* out) {
 
 template <class SolverType>
 State state_after(const StepRun& run) {
-    SolverType solver(run.model, {.response = CollisionResponse::restore}, {.divides_steps = run.divides});
+    SolverType solver(run.model, {.response = run.response}, {.divides_steps = run.divides});
     if (run.is_pulled) solver.set_pulls(hand_at_the_end(*run.model));
     for (int s = 0; s < run.steps; ++s) solver.advance({kFrame});
     return solver.read_state();
@@ -120,7 +132,11 @@ INSTANTIATE_TEST_SUITE_P(Runs, ImplicitRunOnGpuTest,
                                                    30},
                                            StepRun{"flying", flying_blocks(), true, false, 20},
                                            StepRun{"driven", driven_bar(), true, true, 20},
-                                           StepRun{"colliding", colliding_blocks(), true, false, 3}),
+                                           StepRun{"colliding", colliding_blocks(), true, false, 3},
+                                           StepRun{"meeting", colliding_blocks(), true, false, 12,
+                                                   CollisionResponse::contact},
+                                           StepRun{"landing_on_a_table", block_on_a_table(), true, false, 12,
+                                                   CollisionResponse::contact}),
                          [](const auto& test) { return test.param.name; });
 
 // In single precision both differ from the double run by rounding, which impacts enlarge.
