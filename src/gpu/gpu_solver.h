@@ -33,9 +33,9 @@ public:
     void begin_measure() override;
     Measurement end_measure() override { return measure_.end(); }
     // No kernel finds forces.
-    ContactForces contact_forces() const override { return {}; }
+    ContactForces contact_forces() override { return {}; }
     HoldingForces holding_forces() const override { return {}; }
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) const override { return {}; }
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) override { return {}; }
     State read_state() override;
     HostNodes host_nodes() const override { return {}; }
     void write_state(const State& state) override;

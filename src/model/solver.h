@@ -142,17 +142,18 @@ public:
     /// The oldest pending measurement; waits for it if necessary.
     virtual Measurement end_measure() = 0;
 
-    /// What presses objects at present. Without arrays from solvers that do not find it: all but the implicit
-    /// step.
-    virtual ContactForces contact_forces() const = 0;
+    /// What presses objects at present; waits for a device. Without arrays from solvers that do not find it:
+    /// all but the implicit step.
+    virtual ContactForces contact_forces() = 0;
 
     /// What pins and handles exert at present; zero before the first step. Empty without any, and from
     /// solvers that do not find it.
     virtual HoldingForces holding_forces() const = 0;
 
     /// The handles with nodes that bodies keep from where their poses have them, each an index in
-    /// Model::handles; none without CollisionResponse::contact. @param poses at present, shape [handles]
-    virtual std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const = 0;
+    /// Model::handles; none without CollisionResponse::contact. Waits for a
+    /// device. @param poses at present, shape [handles]
+    virtual std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) = 0;
 
     /// Waits for a device.
     virtual State read_state() = 0;

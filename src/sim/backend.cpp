@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <cstdlib>
+#include <string_view>
+
 #include "core/log.h"
 #include "gelatin/error.h"
 #include "gl/debug.h"
@@ -53,6 +56,11 @@ std::optional<gl::Context> make_context(const SimulatorOptions& options) {
 bool choose_gl(const SimulatorOptions& options, const std::optional<gl::Context>& context) {
     if (options.backend == Backend::automatic) return context && !context->device().is_software;
     return options.backend == Backend::gl;
+}
+
+bool makes_contacts_on_device() {
+    const char* const where = std::getenv("GELATIN_CONTACT");
+    return where != nullptr && std::string_view(where) == "device";
 }
 
 }  // namespace gelatin

@@ -20,4 +20,8 @@ std::optional<gl::Context> make_context(const SimulatorOptions& options);
 /// Whether the GL backend simulates: as requested, or for `automatic` on a GPU that is not a software driver.
 bool choose_gl(const SimulatorOptions& options, const std::optional<gl::Context>& context);
 
+/// Whether steps with contacts between bodies are made on the device where the backend is OpenGL: by the
+/// environment variable GELATIN_CONTACT (docs/command-line.md). Else SharedSolver makes them.
+bool makes_contacts_on_device();
+
 }  // namespace gelatin

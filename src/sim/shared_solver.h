@@ -21,9 +21,9 @@ public:
     void set_pulls(std::vector<Pull> pulls) override { host_.set_pulls(std::move(pulls)); }
     void move_pull(std::size_t pull, const glm::dvec3& target) override { host_.move_pull(pull, target); }
     void set_forces(std::span<const glm::vec3> forces) override { host_.set_forces(forces); }
-    ContactForces contact_forces() const override { return host_.contact_forces(); }
+    ContactForces contact_forces() override { return host_.contact_forces(); }
     HoldingForces holding_forces() const override { return host_.holding_forces(); }
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override {
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override {
         return host_.held_up(poses);
     }
     State read_state() override { return host_.read_state(); }

@@ -61,7 +61,7 @@ BackendSolver Simulation::make_solver(const Scene& of, const std::shared_ptr<con
     if (!choose_gl(options, context))
         return timed(std::shared_ptr(
             cpu::make_solver<float>(from, settings.solver, settings.forces, of.collision, implicit)));
-    if (!has_contacts(*from, of.collision))
+    if (!has_contacts(*from, of.collision) || makes_contacts_on_device())
         return timed(std::shared_ptr(
             gpu::make_solver(from, settings.solver, settings.forces, of.collision, implicit)));
     return timed(

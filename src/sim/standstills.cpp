@@ -11,7 +11,7 @@ namespace gelatin {
 namespace {
 
 // What presses an object most, or nothing.
-std::string presser_of(std::uint32_t object, const Model& model, const Solver& solver) {
+std::string presser_of(std::uint32_t object, const Model& model, Solver& solver) {
     std::string name;
     double most = 0.0;
     for (const ContactForces::Between& between : solver.contact_forces().between) {
@@ -38,7 +38,7 @@ std::string name_of(const Handle& handle, const Model& model) {
 }
 
 std::string blocked_line(const std::string& name, const char* does, double time, std::uint32_t object,
-                         const Model& model, const Solver& solver) {
+                         const Model& model, Solver& solver) {
     const std::string presser = presser_of(object, model, solver);
     return fmt::format("{} {} at {:.4g} s: {} leaves it no room to move as it should", name, does, time,
                        presser.empty() ? "what it meets" : "'" + presser + "'");
@@ -46,7 +46,7 @@ std::string blocked_line(const std::string& name, const char* does, double time,
 
 }  // namespace
 
-std::vector<std::string> Standstills::look(const Model& model, const Solver& solver,
+std::vector<std::string> Standstills::look(const Model& model, Solver& solver,
                                            std::span<const std::uint32_t> held_up,
                                            std::span<const double> delays, double time) {
     std::vector<std::string> lines;

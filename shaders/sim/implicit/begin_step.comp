@@ -1,16 +1,20 @@
-// Where a step begins: its clock, and where held nodes go by their velocities, one invocation a node.
+// Where a step begins: its clock, its nodes, and where held ones go by their velocities, one invocation a node. Held nodes that were
+// blocked go on from where the last step has left them.
 // CPU twin: gelatin::cpu::SystemSolver. Parity: tests/gpu/implicit/part_start_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/step_state.glsl"
 layout(local_size_x = 64) in;
 
-uniform samplerBuffer positions;   // xyz [m]; w: inverse mass, 0: held
-uniform samplerBuffer velocities;  // xyz [m/s]
+uniform samplerBuffer given_positions;   // xyz [m]; w: inverse mass, 0: held
+uniform samplerBuffer given_velocities;  // xyz [m/s]
 uniform uint node_count;
 uniform float size;                // of the step [s]
 uniform uint divides;
+uniform uint keeps_held;           // 1: nodes are where the last step ended
 layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) writeonly buffer Goals { vec4 goals[]; };  // of held nodes [m]
+layout(std430) buffer Positions { vec4 positions[]; };
+layout(std430) writeonly buffer Velocities { vec4 velocities[]; };
 
 void begin_clock() {
     StepClock now = clock[0];  // what parts pass on goes on
@@ -34,6 +38,11 @@ void main() {
     uint n = global_index();
     if (n == 0u) begin_clock();
     if (n >= node_count) return;
-    vec4 x = texelFetch(positions, int(n));
-    if (x.w == 0.0) goals[n] = vec4(x.xyz + size * texelFetch(velocities, int(n)).xyz, 0.0);
+    vec4 x = texelFetch(given_positions, int(n)), v = texelFetch(given_velocities, int(n));
+    velocities[n] = v;
+    if (x.w == 0.0) {
+        goals[n] = vec4(x.xyz + size * v.xyz, 0.0);
+        if (keeps_held != 0u && positions[n].w == 0.0) return;
+    }
+    positions[n] = x;
 }

@@ -17,9 +17,9 @@ public:
     ExplicitSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
                    const CollisionSettings& collision = {});
 
-    ContactForces contact_forces() const override { return {}; }
+    ContactForces contact_forces() override { return {}; }
     HoldingForces holding_forces() const override { return {}; }
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) const override { return {}; }
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) override { return {}; }
 
 protected:
     void advance_nodes(const Step& step) override;

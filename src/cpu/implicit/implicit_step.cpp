@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "cpu/contact/contact_force_sums.h"
+#include "model/contact/contact_force_sums.h"
 #include "cpu/contact/tuning.h"
 #include "model/for_each_index.h"
 

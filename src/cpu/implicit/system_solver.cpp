@@ -7,6 +7,7 @@
 
 #include "cpu/contact/tuning.h"
 #include "cpu/implicit/holding_forces.h"
+#include "model/contact/held_up.h"
 
 namespace gelatin::cpu {
 
@@ -121,20 +122,8 @@ HoldingForces SystemSolver<Real>::holding_forces() const {
 }
 
 template <class Real>
-std::vector<std::uint32_t> SystemSolver<Real>::held_up(std::span<const HandlePose> poses) const {
-    const std::vector<double>& thicknesses = step_.surface().thicknesses;
-    const double reach = *std::max_element(thicknesses.begin(), thicknesses.end());
-    std::vector<std::uint8_t> are_late(poses.size());
-    for (const HandleNode& held : model_->handle_nodes) {
-        const Vec4<Real>& position = current_.positions[held.node];
-        if (position.w != Real(0)) continue;  // it is released
-        const glm::dvec3 place = poses[held.handle].place(glm::dvec3(held.arm));
-        if (glm::distance(place, glm::dvec3(position)) > reach) are_late[held.handle] = 1;
-    }
-    std::vector<std::uint32_t> handles;
-    for (std::uint32_t h = 0; h < are_late.size(); ++h)
-        if (are_late[h] != 0) handles.push_back(h);
-    return handles;
+std::vector<std::uint32_t> SystemSolver<Real>::held_up(std::span<const HandlePose> poses) {
+    return find_held_up<Vec4<Real>>(*model_, step_.surface(), current_.positions, poses);
 }
 
 template <class Real>

@@ -20,11 +20,11 @@ public:
     explicit SystemSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision = {},
                           const ImplicitSettings& settings = {});
 
-    ContactForces contact_forces() const override { return step_.contact_forces(); }
+    ContactForces contact_forces() override { return step_.contact_forces(); }
     /// What contacts and their friction hold [J].
     double contact_energy() const { return step_.contact_energy(); }
     HoldingForces holding_forces() const override;
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override;
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override;
     std::string memory() override;
     void write_state(const State& state) override;
 

@@ -1,8 +1,12 @@
 #include "gpu/implicit/body_contacts.h"
 
-#include <algorithm>
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "model/contact/contact_force_sums.h"
 #include "model/shared_constants.h"
 
 namespace gelatin::gpu {
@@ -17,6 +21,22 @@ RowCapacity rows_of(const Model& model, const PairCapacity& pairs) {
     return {pairs.pairs + plane_rows_of(model), pairs.slots + model.body_count()};
 }
 
+// @param normal, friction on the second side [N]
+void add_row(const StepRow& row, std::span<const std::uint32_t> object_of, const glm::dvec3& normal,
+             const glm::dvec3& friction, ContactForceSums& sums) {
+    const std::array<std::uint32_t, 4> nodes{row.node_0, row.node_1, row.node_2, row.node_3};
+    std::optional<std::uint32_t> first;  // none: a plane
+    std::uint32_t second = 0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const auto weight = static_cast<double>(row.weights[static_cast<int>(k)]);
+        if (weight == 0.0) continue;
+        sums.add_to_node(nodes[k], weight * normal, weight * friction);
+        if (weight < 0.0) first = object_of[nodes[k]];
+        if (weight > 0.0) second = object_of[nodes[k]];
+    }
+    if (first != second) sums.add(second, first.value_or(row.plane), !first, normal, friction);
+}
+
 }  // namespace
 
 RowCapacity BodyContacts::capacity_of(const Model& model) {
@@ -28,10 +48,12 @@ BodyContacts::BodyContacts(const Model& model, const ContactSurface& surface, St
     : pairs(model, PairCapacity::of(model)),
       finder(model, surface, state, pairs, own),
       rows(model, surface, state, system, pairs),
+      model_(&model),
       state_(&state),
       system_(&system),
-      plane_rows_(plane_rows_of(model)),
-      guard_(model, state, pairs) {}
+      object_of_(objects_of_nodes(model)),
+      guard_(model, state, pairs),
+      row_forces_(gl::Program::compute("sim/implicit/row_forces.comp")) {}
 
 void BodyContacts::find(const ModelBuffers& model) const {
     finder.run(model);
@@ -49,28 +71,45 @@ void BodyContacts::guard(const ModelBuffers& model) const {
 }
 
 // Lists behind the one that was full are empty: that these have no place either a later try says.
-void BodyContacts::grow() {
-    gl::barrier(gl::Barrier::buffer_update);
-    std::vector<PairCounts> counts(1);
-    pairs.counts.download(counts);
+PairCapacity BodyContacts::needed() const {
+    const PairCounts counts = read(pairs.counts)[0];
     PairCapacity more = pairs.capacity;
     const auto make_room = [](std::size_t& capacity, std::size_t count) {
         if (count > capacity) capacity = 2 * count;
     };
-    make_room(more.slots, counts[0].slots);
-    make_room(more.searches, counts[0].searches);
-    make_room(more.leaf_pairs, counts[0].leaf_pairs);
-    make_room(more.pairs, counts[0].pairs);
-    const std::size_t bodies = system_->capacity().pairs - pairs.capacity.slots;
-    pairs.grow(more);
-    system_->grow({more.pairs + plane_rows_, more.slots + bodies});
+    make_room(more.slots, counts.slots);
+    make_room(more.searches, counts.searches);
+    make_room(more.leaf_pairs, counts.leaf_pairs);
+    make_room(more.pairs, counts.pairs);
+    return more;
+}
+
+void BodyContacts::grow(const PairCapacity& capacity) {
+    gl::barrier(gl::Barrier::buffer_update);
+    pairs.grow(capacity);
+    system_->grow(rows_of(*model_, capacity));
     finder.grow();
     rows.grow();
     guard_.grow();
-    std::vector<StepClock> clock(1);
-    state_->clock.download(clock);
-    clock[0].is_full = 0;
-    state_->clock.upload(clock);
+    StepClock clock = read(state_->clock)[0];
+    clock.is_full = 0;
+    state_->clock.upload(std::vector{clock});
+}
+
+ContactForces BodyContacts::forces() const {
+    ContactForceSums sums(*model_);
+    const std::size_t count = read(state_->clock)[0].row_count;
+    if (count == 0) return sums.take();
+    gl::Buffer<glm::vec4> forces(2 * count);
+    system_->buffers().bind(row_forces_);
+    state_->bind(row_forces_);
+    row_forces_.bind("RowForces", forces);
+    row_forces_.dispatch(count);
+    const std::vector<StepRow> rows_made = read(system_->buffers().rows.values);
+    const std::vector<glm::vec4> of_rows = read(forces);
+    for (std::size_t r = 0; r < count; ++r)
+        add_row(rows_made[r], object_of_, glm::dvec3(of_rows[2 * r]), glm::dvec3(of_rows[2 * r + 1]), sums);
+    return sums.take();
 }
 
 }  // namespace gelatin::gpu

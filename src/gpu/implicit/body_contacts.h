@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "gl/buffer.h"
+#include "gl/program.h"
 #include "gpu/implicit/find_pairs.h"
 #include "gpu/implicit/pair_buffers.h"
 #include "gpu/implicit/pair_guard.h"
@@ -10,6 +14,7 @@
 #include "gpu/model_buffers.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
+#include "model/solver.h"
 
 namespace gelatin::gpu {
 
@@ -20,7 +25,7 @@ namespace gelatin::gpu {
 class BodyContacts {
 public:
     /// @param own whether bodies meet themselves
-    /// @param state, system have to live as long
+    /// @param model, state, system have to live as long
     /// @pre the system's capacity is capacity_of(model)
     BodyContacts(const Model& model, const ContactSurface& surface, StepState& state, StepSystem& system,
                  bool own);
@@ -39,19 +44,28 @@ public:
     /// If the part is made, what contacts held in it. @param changes of PartEnd::settle
     void remember(const gl::Buffer<BodyChange>& changes) const { rows.remember(changes); }
 
-    /// Makes room for what had none, when the clock says that a list was full. Then PartStart and PartEnd have
-    /// to be bound anew. Blocks until the device has ended its tries.
-    void grow();
+    /// For what had no room, when the clock says that a list was full. Blocks until the device has ended its
+    /// tries.
+    PairCapacity needed() const;
+    /// Makes room for so many pairs, after which tries may go on. PartStart::bind_buffers and PartEnd::grow
+    /// have to follow.
+    void grow(const PairCapacity& capacity);
+
+    /// What contacts exert where the last part that was made has ended. Blocks until the device has ended its
+    /// tries.
+    ContactForces forces() const;
 
     PairBuffers pairs;
     FindPairs finder;
     PairRows rows;
 
 private:
+    const Model* model_;
     StepState* state_;
     StepSystem* system_;
-    std::size_t plane_rows_;  // most contacts with planes
+    std::vector<std::uint32_t> object_of_;  // by node
     PairGuard guard_;
+    gl::Program row_forces_;
 };
 
 }  // namespace gelatin::gpu

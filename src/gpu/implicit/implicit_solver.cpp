@@ -10,6 +10,7 @@
 #include "core/archive.h"
 #include "core/log.h"
 #include "gl/context.h"
+#include "model/contact/held_up.h"
 #include "model/shared_constants.h"
 
 namespace gelatin::gpu {
@@ -28,23 +29,35 @@ std::uint32_t most_small_chunks() {
     return gl::Context::current().device().is_software ? 0 : packing::kChunksOfSmallIsland;
 }
 
-// Sizes say for which model it is: the same solver's on another device has them, too.
-void pass(PartEnd::Memory& memory, std::vector<float>& lost_for, Archive& archive) {
-    constexpr std::size_t kDevice = 0xDE71CE;  // no size of a scalar, with which the host's begins
-    const std::array<std::size_t, 4> kind{kDevice, memory.accelerations.size(), memory.paces.size(),
-                                          memory.planes.size()};
-    std::array<std::size_t, 4> written = kind;
-    archive.value(written);
-    if (written != kind) return archive.fail();
-    archive.array(memory.clock);
-    archive.array(memory.paces);
-    archive.array(memory.accelerations);
-    archive.array(memory.planes);
-    archive.array(memory.energies);
-    archive.array(memory.meetings);
-    archive.list(memory.pair_meetings);
-    archive.array(lost_for);
-}
+// What passes from step to step, beside nodes. Sizes say for which model it is: the same solver's on another
+// device has them, too.
+struct Memory {
+    PartEnd::Memory end;
+    std::vector<float> lost_for;      // as ShapeMatcher has it
+    PairRows::Memory contacts;        // between bodies, if there may be any
+    std::vector<glm::vec4> ended_at;  // nodes, where blocked ones are not where they are held
+
+    void pass(Archive& archive) {
+        constexpr std::size_t kDevice = 0xDE71CE;  // no size of a scalar, with which the host's begins
+        const std::array<std::size_t, 5> kind{kDevice, end.accelerations.size(), end.paces.size(),
+                                              end.planes.size(), ended_at.size()};
+        std::array<std::size_t, 5> written = kind;
+        archive.value(written);
+        if (written != kind) return archive.fail();
+        archive.array(end.clock);
+        archive.array(end.paces);
+        archive.array(end.accelerations);
+        archive.array(end.planes);
+        archive.array(end.energies);
+        archive.array(end.meetings);
+        archive.list(end.pair_meetings);
+        archive.array(lost_for);
+        archive.array(ended_at);
+        archive.array(contacts.starts);
+        archive.list(contacts.entries);
+        archive.list(contacts.rows);
+    }
+};
 
 void copy_nodes(const NodeBuffers& from, NodeBuffers& to) {
     gl::barrier(gl::Barrier::buffer_update);
@@ -74,7 +87,7 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
 
 void ImplicitSolver::write_state(const State& state) {
     GpuSolver::write_state(state);
-    goes_on_ = false;
+    goes_on_ = keeps_held_ = false;
     if (restore(state.memory)) return;
     end_.forget();
     if (contacts_) contacts_->rows.forget();
@@ -82,26 +95,56 @@ void ImplicitSolver::write_state(const State& state) {
     goes_on_ = has_earlier_;
 }
 
+ContactForces ImplicitSolver::contact_forces() {
+    if (!contacts_) return {};
+    complete();
+    return contacts_->forces();
+}
+
+std::vector<std::uint32_t> ImplicitSolver::held_up(std::span<const HandlePose> poses) {
+    if (!contacts_) return {};
+    complete();
+    gl::barrier(gl::Barrier::buffer_update);
+    std::vector<glm::vec4> positions(current_.positions.size());
+    current_.positions.download(positions);
+    return find_held_up<glm::vec4>(*model_, surface_, positions, poses);
+}
+
 std::string ImplicitSolver::memory() {
     complete();
     std::string bytes;
     Archive archive = Archive::that_writes(bytes);
-    PartEnd::Memory memory = end_.memory();
-    std::vector<float> lost_for = shape_matcher_.lost_for();
-    pass(memory, lost_for, archive);
+    Memory memory{end_.memory(), shape_matcher_.lost_for(), {}, {}};
+    if (contacts_) {
+        memory.contacts = contacts_->rows.memory();
+        memory.ended_at.resize(model_->node_count());
+        state_.from.positions.download(memory.ended_at);
+    }
+    memory.pass(archive);
     return bytes;
 }
 
 // @return whether it was that of such a solver
 bool ImplicitSolver::restore(std::string_view bytes) {
     Archive archive = Archive::that_reads(bytes);
-    PartEnd::Memory memory = end_.empty_memory();
-    std::vector<float> lost_for(model_->objects.size());
-    pass(memory, lost_for, archive);
+    Memory memory{end_.empty_memory(), std::vector<float>(model_->objects.size()), {}, {}};
+    if (contacts_) {
+        memory.ended_at.resize(model_->node_count());
+        memory.contacts.starts.resize(model_->node_count() + 1);
+    }
+    memory.pass(archive);
     if (!archive.is_complete()) return false;
-    end_.set_memory(memory);
-    shape_matcher_.set_lost_for(lost_for);
-    return true;
+    end_.set_memory(memory.end);
+    shape_matcher_.set_lost_for(memory.lost_for);
+    if (!contacts_) return true;
+    PairCapacity capacity = contacts_->pairs.capacity;
+    if (memory.contacts.rows.size() > capacity.pairs) {
+        capacity.pairs = memory.contacts.rows.size();
+        grow(capacity);
+    }
+    contacts_->rows.set_memory(memory.contacts);
+    state_.from.positions.upload(memory.ended_at);
+    return keeps_held_ = true;
 }
 
 void ImplicitSolver::advance_nodes(const Step& step) {
@@ -111,9 +154,13 @@ void ImplicitSolver::advance_nodes(const Step& step) {
     }
     loads_ = loads_of(step);
     std::swap(current_, previous_);
-    copy_nodes(previous_, state_.from);
-    shape_matcher_.run(state_.from, step.size);
-    start_.begin_step(step.size, divides_steps_);
+    gl::barrier(gl::Barrier::storage);  // copies have to have read what this writes
+    start_.begin_step(previous_, step.size, divides_steps_, keeps_held_);
+    keeps_held_ = contacts_.has_value();
+    if (!contacts_) {
+        gl::barrier(gl::Barrier::buffer_update);
+        shape_matcher_.run(state_.from, step.size);
+    }
     end_.begin_step(buffers_);
     has_earlier_ = true;
     make_tries();
@@ -152,8 +199,8 @@ void ImplicitSolver::make_try() {
     contacts_->remember(end_.changes());
 }
 
-void ImplicitSolver::grow() {
-    contacts_->grow();
+void ImplicitSolver::grow(const PairCapacity& capacity) {
+    contacts_->grow(capacity);
     start_.bind_buffers();
     end_.grow();
 }
@@ -163,7 +210,7 @@ void ImplicitSolver::complete() {
         StepClock clock;
         std::memcpy(&clock, clocks_.take().data(), sizeof(clock));
         tries_ = std::clamp(clock.tries + 1, 2u, 8u);
-        if (clock.is_full != 0) grow();
+        if (clock.is_full != 0) grow(contacts_->needed());
         if (clock.is_over == 0) {
             gl::barrier(gl::Barrier::storage);  // the copy has to have read the clock
             make_tries();

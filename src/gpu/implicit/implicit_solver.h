@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gl/readback.h"
 #include "gpu/gpu_solver.h"
@@ -18,7 +20,7 @@
 
 namespace gelatin::gpu {
 
-/// Makes implicit steps, without contacts between bodies: SharedSolver has those.
+/// Makes implicit steps, with contacts between bodies where there may be any.
 ///
 /// A step is made in parts, and a part may take several tries (PartEnd). How many it takes the device alone
 /// knows, so the host launches as many as the steps before have needed and one more. What is left of a step
@@ -29,6 +31,8 @@ public:
     explicit ImplicitSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision = {},
                             const ImplicitSettings& settings = {});
 
+    ContactForces contact_forces() override;
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override;
     std::string memory() override;
     void write_state(const State& state) override;
 
@@ -39,7 +43,7 @@ protected:
 private:
     void make_tries();
     void make_try();
-    void grow();
+    void grow(const PairCapacity& capacity);
     bool restore(std::string_view bytes);
 
     bool divides_steps_;
@@ -52,6 +56,7 @@ private:
     ShapeMatcher shape_matcher_;  // of bodies that have lost their shape, before they move
     const SumLoads* loads_ = nullptr;
     bool goes_on_ = false;     // with earlier velocities of a state that was written
+    bool keeps_held_ = false;  // state_ has nodes where the last step ended
     std::uint32_t tries_ = 2;  // to launch
     bool has_warned_ = false;  // of contacts without a place
     gl::Readback clocks_;      // of steps that were launched: of one at most

@@ -35,14 +35,6 @@ std::vector<glm::vec4> surface_velocities_of(const Model& model) {
     return velocities;
 }
 
-template <class T>
-std::vector<T> read(const gl::Buffer<T>& buffer) {
-    std::vector<T> values(buffer.size());
-    gl::barrier(gl::Barrier::buffer_update);
-    buffer.download(values);
-    return values;
-}
-
 }  // namespace
 
 PairRows::Programs::Programs()

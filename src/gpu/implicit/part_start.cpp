@@ -77,6 +77,7 @@ void PartStart::bind_buffers() const {
         state_.bind(*program);
         program->bind_declared("positions", state_.from.position_texels);
         program->bind_declared("velocities", state_.from.velocity_texels);
+        program->bind_declared("Positions", state_.from.positions);
         program->bind_declared("Velocities", state_.from.velocities);
         program->bind_declared("wave_times", wave_times_);
         part_sums_.bind(*program, "PartSums", "part_sums");
@@ -95,7 +96,10 @@ void PartStart::run(const gl::Program& program, std::uint32_t groups) const {
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-void PartStart::begin_step(double size, bool divides) const {
+void PartStart::begin_step(const NodeBuffers& nodes, double size, bool divides, bool keeps_held) const {
+    programs_.begin_step.bind("given_positions", nodes.position_texels);
+    programs_.begin_step.bind("given_velocities", nodes.velocity_texels);
+    programs_.begin_step.set("keeps_held", keeps_held ? 1u : 0u);
     programs_.begin_step.set("size", static_cast<float>(size));
     programs_.begin_step.set("divides", divides ? 1u : 0u);
     run(programs_.begin_step, (node_count_ + 63) / 64);

@@ -33,6 +33,15 @@ struct StepBuffer {
     gl::BufferTexture texels;
 };
 
+/// All values of a buffer; blocks until the device has written them.
+template <class T>
+std::vector<T> read(const gl::Buffer<T>& buffer) {
+    std::vector<T> values(buffer.size());
+    gl::barrier(gl::Barrier::buffer_update);
+    buffer.download(values);
+    return values;
+}
+
 /// Most contacts of a step, and most pairs of objects that have any.
 struct RowCapacity {
     std::size_t rows = 0, pairs = 0;

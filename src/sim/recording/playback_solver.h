@@ -19,9 +19,9 @@ public:
         contacts_ = frame.contacts;
         holds_ = frame.holds;
     }
-    ContactForces contact_forces() const override { return contacts_; }
+    ContactForces contact_forces() override { return contacts_; }
     HoldingForces holding_forces() const override { return holds_; }
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) const override { return {}; }
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) override { return {}; }
     std::string device() const override { return "a recording"; }
 
 private:

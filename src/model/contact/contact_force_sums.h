@@ -9,7 +9,7 @@
 #include "model/model.h"
 #include "model/solver.h"
 
-namespace gelatin::cpu {
+namespace gelatin {
 
 /// Sums the forces of contacts up, by node and by pair of objects.
 class ContactForceSums {
@@ -49,4 +49,4 @@ private:
     std::map<std::tuple<std::uint32_t, bool, std::uint32_t>, ContactForces::Between> between_;
 };
 
-}  // namespace gelatin::cpu
+}  // namespace gelatin
