@@ -195,7 +195,7 @@ Wishes stairs(int plates) {
         blocks.push_back({.place = {0.2 * k, 0.002 + 0.004 * k, 0.01 * (k % 2)},
                           .cells = {1, 1, 1},
                           .size = {0.38, 0.002, 0.1}});
-        motions.emplace_back(0.5, -0.1, 0);
+        motions.emplace_back(0.5, -0.04, 0);
     }
     return wish(make_blocks(blocks), by(motions));
 }
@@ -206,13 +206,15 @@ Wishes into_a_groove(bool of_planes) {
     const glm::dvec3 middle(0.05, -0.5, 0.05);
     std::vector<ColliderDescription> walls;
     for (const double side : {1.0, -1.0}) {
-        const glm::dvec3 normal(0.96 * side, 0.28, 0.0), up(-0.28 * side, 0.96, 0.0);
+        const double angle = 0.2;
+        const glm::dvec3 normal(side * std::cos(angle), std::sin(angle), 0.0),
+            up(-side * std::sin(angle), std::cos(angle), 0.0);
         if (of_planes) {
             walls.push_back(a_plane(normal, glm::dot(normal, middle)));
         } else {
             walls.push_back(
                 a_surface(Shape(BoxShape{{0.02, 1.0, 1.0}}), middle + 0.502 * up - 0.01 * normal));
-            walls.back().rotation.z = side * glm::degrees(std::atan2(0.28, 0.96));
+            walls.back().rotation.z = side * glm::degrees(angle);
         }
     }
     const auto model = make_blocks(
@@ -302,7 +304,7 @@ Scenarios pair_guard_scenarios() {
     });
     // A gap within rounding, which double has not: nothing may move there.
     add("without_a_gap", [] {
-        return soundness_error(wish(blocks_beside({}, 6e-8), by({{0.02, 0, 0}, {-0.01, 0, 0}})), 1.6);
+        return soundness_error(wish(blocks_beside({}, 1.5e-8), by({{0.02, 0, 0}, {-0.01, 0, 0}})), 1.6);
     });
     add("nothing_meets", [] {
         double error = 0.0;
