@@ -206,7 +206,7 @@ Wishes into_a_groove(bool of_planes) {
     const glm::dvec3 middle(0.05, -0.5, 0.05);
     std::vector<ColliderDescription> walls;
     for (const double side : {1.0, -1.0}) {
-        const double angle = 0.2;
+        const double angle = 0.05;
         const glm::dvec3 normal(side * std::cos(angle), std::sin(angle), 0.0),
             up(-side * std::sin(angle), std::cos(angle), 0.0);
         if (of_planes) {
@@ -217,9 +217,11 @@ Wishes into_a_groove(bool of_planes) {
             walls.back().rotation.z = side * glm::degrees(angle);
         }
     }
-    const auto model = make_blocks(
-        {{.cells = {1, 1, 1}, .size = glm::dvec3(0.1), .pins = {HalfSpaceRegion{{0, -1, 0}, -0.05}}}},
-        {0, 0, 0}, walls);
+    const auto model = make_blocks({{.place = {0.035, 0, 0},
+                                     .cells = {1, 1, 1},
+                                     .size = {0.03, 0.1, 0.1},
+                                     .pins = {HalfSpaceRegion{{0, -1, 0}, -0.05}}}},
+                                   {0, 0, 0}, walls);
     return wish(model, [](std::uint32_t o, const glm::dvec3& x) {
         return o == 0 && x.y < 0.05 ? glm::dvec3(0.04 + 0.2 * x.x, -0.7, x.z) : x;
     });
