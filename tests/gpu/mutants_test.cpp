@@ -8,12 +8,14 @@
 
 #include "gpu/support/collision_scenarios.h"
 #include "gpu/support/implicit_scenarios.h"
-#include "gpu/support/pair_scenarios.h"
+#include "gpu/support/pair_guard_scenarios.h"
 #include "gpu/support/pair_rows_scenarios.h"
+#include "gpu/support/pair_scenarios.h"
 #include "gpu/support/part_end_scenarios.h"
 #include "gpu/support/part_start_scenarios.h"
 #include "gpu/support/solver_scenarios.h"
 #include "mutants/collision_mutants.h"
+#include "mutants/guard_mutants.h"
 #include "mutants/implicit_mutants.h"
 #include "mutants/pair_mutants.h"
 #include "mutants/solver_mutants.h"
@@ -49,6 +51,8 @@ INSTANTIATE_TEST_SUITE_P(FindPairs, MutantsLong,
                          ::testing::ValuesIn(cases(kFindPairsMutants, pair_scenarios())), name_of_case);
 INSTANTIATE_TEST_SUITE_P(PairRows, MutantsLong,
                          ::testing::ValuesIn(cases(kPairRowMutants, pair_rows_scenarios())), name_of_case);
+INSTANTIATE_TEST_SUITE_P(PairGuards, MutantsLong,
+                         ::testing::ValuesIn(cases(kPairGuardMutants, pair_guard_scenarios())), name_of_case);
 INSTANTIATE_TEST_SUITE_P(PartEnds, MutantsLong,
                          ::testing::ValuesIn(cases(kPartEndMutants, part_end_scenarios())), name_of_case);
 

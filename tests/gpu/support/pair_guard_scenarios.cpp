@@ -33,10 +33,12 @@ Move by(const std::vector<glm::dvec3>& motions) {
     };
 }
 
-// Two blocks of one cell, 0.1 m of size, side by side along x with a gap of 2 mm.
-std::shared_ptr<const Model> blocks_beside(const std::vector<ColliderDescription>& colliders = {}) {
+// Two blocks of one cell, 0.1 m of size, side by side along x.
+std::shared_ptr<const Model> blocks_beside(const std::vector<ColliderDescription>& colliders = {},
+                                           double gap = 0.002,
+                                           const glm::dvec3& second_size = glm::dvec3(0.1)) {
     return make_blocks({{.cells = {1, 1, 1}, .size = glm::dvec3(0.1)},
-                        {.place = {0.102, 0, 0}, .cells = {1, 1, 1}, .size = glm::dvec3(0.1)}},
+                        {.place = {0.1 + gap, 0, 0}, .cells = {1, 1, 1}, .size = second_size}},
                        {0, 0, 0}, colliders);
 }
 
@@ -157,16 +159,22 @@ Wishes folding(double angle) {
         true);
 }
 
-// A handle, the left end of a block, pushes the block and another one, which stands before a wall or does
-// not.
-double handle_error(const glm::dvec3& motion, bool is_blocked) {
+struct Push {
+    glm::dvec3 motion, motion_of_other{0.0};
+    double gap = 0.002, size = 0.1;  // before and of the other block [m]
+    double room = -1.0;              // behind it; less than 0: no wall stands there [m]
+};
+
+// A handle, the right end of a block, pushes another block, which stands before a wall or does not.
+double handle_error(const Push& push) {
+    const double wall = 0.2 + push.gap + push.size + push.room;
     std::vector<ColliderDescription> walls;
-    if (is_blocked) walls.push_back(a_surface(Shape(BoxShape{{0.2, 1.0, 1.0}}), {0.41, 0, 0}));
+    if (push.room >= 0.0) walls.push_back(a_surface(Shape(BoxShape{{0.2, 1.0, 1.0}}), {0.1 + wall, 0, 0}));
     const auto model = make_blocks(
         {{.cells = {2, 1, 1}, .size = {0.2, 0.1, 0.1}, .pins = {HalfSpaceRegion{{-1, 0, 0}, -0.05}}},
-         {.place = {0.202, 0.01, 0}, .cells = {1, 1, 1}, .size = glm::dvec3(0.1)}},
+         {.place = {0.2 + push.gap, 0.01, 0}, .cells = {1, 1, 1}, .size = {push.size, 0.1, 0.1}}},
         {0, 0, 0}, walls);
-    const Wishes wishes = wish(model, by({motion}));
+    const Wishes wishes = wish(model, by({push.motion, push.motion_of_other}));
     const Guarded actual = guard_on_gpu(wishes), expected = guard_on_cpu<double>(wishes);
     if (!is_sound(wishes, actual)) return error_if(true);
     bool same = true;  // whether what is held goes where it goes on the CPU
@@ -174,6 +182,49 @@ double handle_error(const glm::dvec3& motion, bool is_blocked) {
         same = same && (actual.ends[n].w != 0.0 || actual.ends[n] == expected.ends[n]);
     return std::max(error_if(!same),
                     held_back(wishes, actual.ends) / (1.1 * held_back(wishes, expected.ends) + 1e-6));
+}
+
+// Plates, each with one end above the middle of the one below; the first has it above a heavy block. All but
+// the block go down. That stops the end of the first plate, so that this stops the end of the second one, and
+// so on: one in each round.
+Wishes stairs(int plates) {
+    std::vector<Block> blocks{
+        {.place = {-0.3, -0.3, -0.1}, .cells = {1, 1, 1}, .size = glm::dvec3(0.4, 0.3, 0.3)}};
+    std::vector<glm::dvec3> motions{{0.5, 0, 0}};
+    for (int k = 0; k < plates; ++k) {
+        blocks.push_back({.place = {0.2 * k, 0.002 + 0.004 * k, 0.01 * (k % 2)},
+                          .cells = {1, 1, 1},
+                          .size = {0.38, 0.002, 0.1}});
+        motions.emplace_back(0.5, -0.04, 0);
+    }
+    return wish(make_blocks(blocks), by(motions));
+}
+
+// A block, held above, between two walls that meet below it. Its other nodes are wanted behind both: what
+// keeps one to a wall moves it into the other.
+Wishes into_a_groove(bool of_planes) {
+    const glm::dvec3 middle(0.05, -0.5, 0.05);
+    std::vector<ColliderDescription> walls;
+    for (const double side : {1.0, -1.0}) {
+        const double angle = 0.05;
+        const glm::dvec3 normal(side * std::cos(angle), std::sin(angle), 0.0),
+            up(-side * std::sin(angle), std::cos(angle), 0.0);
+        if (of_planes) {
+            walls.push_back(a_plane(normal, glm::dot(normal, middle)));
+        } else {
+            walls.push_back(
+                a_surface(Shape(BoxShape{{0.02, 1.0, 1.0}}), middle + 0.502 * up - 0.01 * normal));
+            walls.back().rotation.z = side * glm::degrees(angle);
+        }
+    }
+    const auto model = make_blocks({{.place = {0.035, 0, 0},
+                                     .cells = {1, 1, 1},
+                                     .size = {0.03, 0.1, 0.1},
+                                     .pins = {HalfSpaceRegion{{0, -1, 0}, -0.05}}}},
+                                   {0, 0, 0}, walls);
+    return wish(model, [](std::uint32_t o, const glm::dvec3& x) {
+        return o == 0 && x.y < 0.05 ? glm::dvec3(0.04 + 0.2 * x.x, -0.7, x.z) : x;
+    });
 }
 
 // A collider that comes down on a body on a box.
@@ -246,11 +297,16 @@ Scenarios pair_guard_scenarios() {
     add("shares_by_compliance", [] {
         Wishes wishes = wish(blocks_beside(), by({{0.05, 0, 0}, {-0.05, 0, 0}}));
         for (std::size_t n = 0; n < wishes.ends.size(); ++n)
-            wishes.compliances.push_back(n < wishes.model->objects[0].nodes.count ? 9.0f : 1.0f);
+            wishes.compliances.push_back(n < wishes.model->objects[0].nodes.count ? 99.0f : 1.0f);
         return parity_error(wishes, 1e-6);
     });
     add("a_frame_and_more", [] {
-        return parity_error(wish(blocks_beside(), by({{0.45, 0.02, 0.1}, {0.4, 0, 0.1}})), 1e-6);
+        const auto model = blocks_beside({}, 0.002, {0.2, 0.1, 0.15});
+        return parity_error(wish(model, by({{0.45, 0.02, 0.1}, {0.4, 0, 0.1}})), 1e-6);
+    });
+    // A gap within rounding, which double has not: nothing may move there.
+    add("without_a_gap", [] {
+        return soundness_error(wish(blocks_beside({}, 1.5e-8), by({{0.02, 0, 0}, {-0.01, 0, 0}})), 1.6);
     });
     add("nothing_meets", [] {
         double error = 0.0;
@@ -275,6 +331,8 @@ Scenarios pair_guard_scenarios() {
         const auto model = blocks_beside({a_plane({0, 1, 0}, -0.001), a_plane({-0.6, 0.8, 0}, -0.3)});
         return parity_error(wish(model, by({{0.3, -0.1, 0}, {-0.1, -0.3, 0.1}})), 2e-6);
     });
+    add("into_a_groove_of_planes", [] { return parity_error(into_a_groove(true), 2e-6); });
+    add("into_a_groove", [] { return soundness_error(into_a_groove(false), 1.1); });
     add("pressed_on_a_plane", [] {
         const auto model =
             make_blocks({{.cells = {2, 1, 2}, .size = {0.2, 0.1, 0.2}},
@@ -300,8 +358,23 @@ Scenarios pair_guard_scenarios() {
     for (const double angle : {0.5, 2.0, 3.6})
         add("folded_by_" + std::to_string(int(10 * angle)),
             [=] { return soundness_error(folding(angle), 1.1); });
-    add("a_handle_with_room", [] { return handle_error({0.05, 0, 0}, false); });
-    add("a_blocked_handle", [] { return handle_error({0.2, 0, 0}, true); });
+    add("a_handle_with_room", [] { return handle_error({.motion = {0.05, 0, 0}}); });
+    add("a_blocked_handle", [] { return handle_error({.motion = {0.2, 0, 0}, .room = 0.008}); });
+    // To a plate that cannot give way, nearer than the least gap, but not too near.
+    add("a_handle_that_just_fits", [] {
+        return handle_error({.motion = {0.00195, 0, 0}, .size = 1e-4, .room = 2e-5});
+    });
+    // Within the slack of its path; what comes towards it then meets it where it stays.
+    add("a_blocked_handle_on_its_path", [] {
+        return handle_error({.motion = {0.0015, 0, 0},
+                             .motion_of_other = {-0.0015, 0, 0},
+                             .gap = 0.001,
+                             .size = 1e-4,
+                             .room = 2e-5});
+    });
+    add("stairs", [] { return parity_error(stairs(4), 1e-6); });
+    // More than there are rounds: all of it goes with what it has in common.
+    add("long_stairs", [] { return soundness_error(stairs(12), 2.0); });
     add("a_press", [] { return press_error(); });
     add("a_dozen", [] { return soundness_error(dozen(), 1.1); });
     for (unsigned seed = 1; seed <= 12; ++seed)
