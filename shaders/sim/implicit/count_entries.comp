@@ -1,5 +1,5 @@
 // How many rows each node has, of pairs and of planes, and the nodes of a chunk together. A work group a chunk.
-// CPU twin: none; tables: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
+// Host: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 const uint kLanes = 64u;
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/near_pairs.glsl"

@@ -1,5 +1,5 @@
 // Of which pairs each body is a side: of each of its slots, of the slots the other way round, and of planes. A work group a body.
-// CPU twin: none; tables: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
+// Host: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 const uint kLanes = 64u;
 #include "include/global_index.glsl"
 #include "sim/implicit/clock.glsl"

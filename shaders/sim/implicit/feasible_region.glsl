@@ -1,6 +1,6 @@
 // Which pairs press where surfaces are near each other, so that no place of a surface counts twice. `toward` is the unit vector from
 // the first side's nearest point to the second's.
-// CPU twin: gelatin::cpu::FeasibleRegion, which explains the method.
+// It explains the method, as does the CPU twin: gelatin::cpu::FeasibleRegion.
 #include "layouts/contact_tuning.glsl"
 
 uniform samplerBuffer positions;          // xyz [m]

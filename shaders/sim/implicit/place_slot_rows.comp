@@ -1,6 +1,6 @@
 // Where the rows of each slot and those with planes go in the tables, and what these have by pair and body: after each slot of a
 // body that of a collider with it, then planes. A work group a body.
-// CPU twin: none; tables: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
+// Host: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 const uint kLanes = 64u;
 #include "layouts/contact_tuning.glsl"
 #include "layouts/step_rows.glsl"

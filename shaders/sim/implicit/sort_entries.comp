@@ -1,5 +1,5 @@
 // The rows of each node ascend, in whatever order they were written: so sums over them have a fixed order. An invocation a node.
-// CPU twin: none; tables: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
+// Host: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/implicit/clock.glsl"
 #include "sim/implicit/near_pairs.glsl"

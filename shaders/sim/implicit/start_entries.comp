@@ -1,6 +1,6 @@
 // Where the rows of each node begin in the tables; so also where the next of them goes. A work group a chunk, which adds up those
 // before it.
-// CPU twin: none; tables: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
+// Host: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 const uint kLanes = 64u;
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/near_pairs.glsl"

@@ -126,18 +126,17 @@ double farthest(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b
 class ImplicitSolverOnGpuTest : public test::GlTest {};
 class ImplicitRunOnGpuTest : public test::GlTest, public ::testing::WithParamInterface<StepRun> {};
 
-INSTANTIATE_TEST_SUITE_P(Runs, ImplicitRunOnGpuTest,
-                         ::testing::Values(StepRun{"landing", landing_block(), true, false, 30},
-                                           StepRun{"landing_in_whole_steps", landing_block(), false, false,
-                                                   30},
-                                           StepRun{"flying", flying_blocks(), true, false, 20},
-                                           StepRun{"driven", driven_bar(), true, true, 20},
-                                           StepRun{"colliding", colliding_blocks(), true, false, 3},
-                                           StepRun{"meeting", colliding_blocks(), true, false, 12,
-                                                   CollisionResponse::contact},
-                                           StepRun{"landing_on_a_table", block_on_a_table(), true, false, 12,
-                                                   CollisionResponse::contact}),
-                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Runs, ImplicitRunOnGpuTest,
+    ::testing::Values(StepRun{"landing", landing_block(), true, false, 30},
+                      StepRun{"landing_in_whole_steps", landing_block(), false, false, 30},
+                      StepRun{"flying", flying_blocks(), true, false, 20},
+                      StepRun{"driven", driven_bar(), true, true, 20},
+                      StepRun{"colliding", colliding_blocks(), true, false, 3},
+                      StepRun{"meeting", colliding_blocks(), true, false, 12, CollisionResponse::contact},
+                      StepRun{"landing_on_a_table", block_on_a_table(), true, false, 12,
+                              CollisionResponse::contact}),
+    [](const auto& test) { return test.param.name; });
 
 // In single precision both differ from the double run by rounding, which impacts enlarge.
 TEST_P(ImplicitRunOnGpuTest, DoesWhatTheCpuDoes) {

@@ -108,8 +108,8 @@ public:
     Guarded run() {
         Guarded result;
         StepClock clock{};
-        clock.size = clock.step = 1.0f / 240.0f;  // the CPU's guard does not halve parts
-        clock.step /= static_cast<float>(contact_tuning::kMostParts);
+        clock.size = clock.step = 1.0f / 240.0f;
+        if (!wishes_.is_long) clock.step /= static_cast<float>(contact_tuning::kMostParts);
         do {
             upload_pairs();
             clock.goes_on = 1;
@@ -123,7 +123,9 @@ public:
             follow_paths();
         } while (clock.goes_on != 0 && result.runs < tuning::kMostGuards);
         guard_.close();
+        result.clock = downloaded(state_.clock)[0];
         const GuardState found = downloaded(guard_.found())[0];
+        result.is_done = found.is_done != 0;
         result.is_changed = found.is_changed != 0;
         result.is_given_up = found.is_given_up != 0;
         result.ends = doubles(downloaded(state_.to.positions));
@@ -156,6 +158,7 @@ private:
         PairCounts counts{};
         counts.pairs = static_cast<std::uint32_t>(finder_.pairs().size());
         counts.has_lost = has_lost ? 1 : 0;
+        counts.is_full = wishes_.is_full ? 1 : 0;
         pairs_.counts.upload(std::vector{counts});
     }
     void follow_paths() {

@@ -21,14 +21,17 @@ struct Wishes {
     bool own = false;                          ///< bodies meet themselves
     std::optional<std::size_t> capacity = {};  ///< of pairs
     bool loses_always = false;                 ///< each run finds that bodies have lost something
+    bool is_long = false;                      ///< the part may be halved
+    bool is_full = false;                      ///< pairs have no place
 };
 
 /// Where they go.
 struct Guarded {
     std::vector<glm::dvec4> ends, path_ends;
-    bool is_changed = false, is_given_up = false;
+    bool is_changed = false, is_given_up = false, is_done = false;
     std::size_t clipped = 0;  ///< of the first run
     int runs = 0;
+    StepClock clock{};  ///< on the device
 };
 
 /// cpu::ImplicitStep<Real>::guard.

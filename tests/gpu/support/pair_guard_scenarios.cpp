@@ -272,6 +272,22 @@ double given_up_error() {
                     actual.ends != expected.ends);
 }
 
+// The try goes on where the guard is done, is made again in shorter parts where it finds no way, or waits for
+// room.
+double close_error() {
+    Wishes wishes = wish(blocks_beside(), by({{0.05, 0, 0}}));
+    const Guarded done = guard_on_gpu(wishes);
+    if (done.clock.goes_on == 0 || done.clock.guards != 0 || done.is_done) return error_if(true);
+    wishes.is_long = wishes.loses_always = true;
+    const Guarded halved = guard_on_gpu(wishes);
+    if (halved.clock.goes_on != 0 || halved.is_given_up || halved.clock.step != 0.5f * halved.clock.size)
+        return error_if(true);
+    wishes.is_full = true;
+    const Guarded full = guard_on_gpu(wishes);
+    return error_if(full.clock.goes_on != 0 || full.clock.is_full == 0 || full.runs != 1 ||
+                    full.clock.step != full.clock.size);
+}
+
 // Those beyond the end of the buffer are as if they were not there.
 double full_guard_error() {
     Wishes wishes = wish(blocks_beside(), by({{0.05, 0, 0}}));
@@ -381,6 +397,7 @@ Scenarios pair_guard_scenarios() {
         add("violent_" + std::to_string(seed), [=] { return soundness_error(violent(seed), 1.3); });
     add("what_is_not_finite_stays", [] { return infinite_error(); });
     add("runs_too_often", [] { return given_up_error(); });
+    add("goes_on_or_not", [] { return close_error(); });
     add("too_many_pairs", [] { return full_guard_error(); });
     add("repeats", [] {
         const Wishes wishes = violent(3);
