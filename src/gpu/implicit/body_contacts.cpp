@@ -12,15 +12,6 @@
 namespace gelatin::gpu {
 namespace {
 
-std::size_t plane_rows_of(const Model& model) {
-    return model.colliders.size() * model.surface_parts.nodes.size();
-}
-
-// Each pair may have a row.
-RowCapacity rows_of(const Model& model, const PairCapacity& pairs) {
-    return {pairs.pairs + plane_rows_of(model), pairs.slots + model.body_count()};
-}
-
 // @param normal, friction on the second side [N]
 void add_row(const StepRow& row, std::span<const std::uint32_t> object_of, const glm::dvec3& normal,
              const glm::dvec3& friction, ContactForceSums& sums) {
@@ -39,13 +30,15 @@ void add_row(const StepRow& row, std::span<const std::uint32_t> object_of, const
 
 }  // namespace
 
-RowCapacity BodyContacts::capacity_of(const Model& model) {
-    return rows_of(model, PairCapacity::of(model));
+// Each pair may have a row, as may each surface node with each plane.
+RowCapacity BodyContacts::capacity_of(const Model& model, const PairCapacity& room) {
+    return {room.pairs + model.colliders.size() * model.surface_parts.nodes.size(),
+            room.slots + model.body_count()};
 }
 
 BodyContacts::BodyContacts(const Model& model, const ContactSurface& surface, StepState& state,
-                           StepSystem& system, bool own)
-    : pairs(model, PairCapacity::of(model)),
+                           StepSystem& system, bool own, const PairCapacity& room)
+    : pairs(model, room),
       finder(model, surface, state, pairs, own),
       rows(model, surface, state, system, pairs),
       model_(&model),
@@ -87,7 +80,7 @@ PairCapacity BodyContacts::needed() const {
 void BodyContacts::grow(const PairCapacity& capacity) {
     gl::barrier(gl::Barrier::buffer_update);
     pairs.grow(capacity);
-    system_->grow(rows_of(*model_, capacity));
+    system_->grow(capacity_of(*model_, capacity));
     finder.grow();
     rows.grow();
     guard_.grow();

@@ -24,14 +24,14 @@ namespace gelatin::gpu {
 /// PartEnd::settle, remember(). CPU twin: cpu::ImplicitStep.
 class BodyContacts {
 public:
-    /// @param own whether bodies meet themselves
+    /// @param own whether bodies meet themselves @param room at first; it grows
     /// @param model, state, system have to live as long
-    /// @pre the system's capacity is capacity_of(model)
+    /// @pre the system's capacity is capacity_of(model, room)
     BodyContacts(const Model& model, const ContactSurface& surface, StepState& state, StepSystem& system,
-                 bool own);
+                 bool own, const PairCapacity& room);
 
-    /// Of the system, for usual cases.
-    static RowCapacity capacity_of(const Model& model);
+    /// Of the system with so much room for pairs.
+    static RowCapacity capacity_of(const Model& model, const PairCapacity& room);
 
     /// Pairs that may come near each other where nodes go by state.predicted. Ends with the barrier for
     /// PartStart::make_system.

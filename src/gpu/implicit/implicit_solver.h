@@ -28,8 +28,10 @@ namespace gelatin::gpu {
 /// that are late by so much. CPU twin: cpu::SystemSolver.
 class ImplicitSolver : public GpuSolver {
 public:
+    /// @param room for pairs of surfaces at first, by default for usual cases; it grows
     explicit ImplicitSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision = {},
-                            const ImplicitSettings& settings = {});
+                            const ImplicitSettings& settings = {},
+                            const std::optional<PairCapacity>& room = {});
 
     ContactForces contact_forces() override;
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override;
@@ -49,6 +51,7 @@ private:
     bool divides_steps_;
     ContactSurface surface_;
     StepState state_;
+    std::optional<PairCapacity> room_;  // at first; none: there are no contacts between bodies
     StepSystem system_;
     std::optional<BodyContacts> contacts_;  // between bodies
     PartStart start_;

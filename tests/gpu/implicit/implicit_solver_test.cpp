@@ -12,13 +12,13 @@
 #include <memory>
 
 #include "cpu/implicit/system_solver.h"
+#include "support/contact_scenes.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
 namespace gelatin {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // [s]
 
 Body soft_block(glm::ivec3 cells, glm::dvec3 place, MaterialModel material = MaterialModel::mass_spring) {
     Body body = test::make_body(test::make_block(cells, 0.1 * glm::dvec3(cells), 0.2));
@@ -38,6 +38,7 @@ ColliderDescription rough_floor() {
     return description;
 }
 
+using test::kFrame;
 using SharedModel = std::shared_ptr<const Model>;
 
 // Lands with a turn on a floor and slides.

@@ -1,0 +1,152 @@
+// Contacts between bodies in whole steps on the device: that nothing crosses, in however little room; what
+// passes through checkpoints; forces to read, and handles that are blocked.
+#include "gpu/implicit/body_contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "gpu/implicit/implicit_solver.h"
+#include "support/contact_scenes.h"
+#include "support/gl_fixture.h"
+#include "support/overlaps.h"
+
+namespace gelatin {
+namespace {
+
+using test::Block;
+using test::kFrame;
+using SharedModel = std::shared_ptr<const Model>;
+
+struct Settings {
+    double friction = 0.4;
+    int iterations = 10;
+    bool divides_steps = true;
+    std::optional<gpu::PairCapacity> room = {};
+};
+
+gpu::ImplicitSolver make_solver(const SharedModel& model, const Settings& settings = {}) {
+    return gpu::ImplicitSolver(
+        model,
+        {.response = CollisionResponse::contact, .self_collision = true, .friction = settings.friction},
+        {.iterations = settings.iterations, .divides_steps = settings.divides_steps}, settings.room);
+}
+
+// Two blocks on top of each other and a floor.
+SharedModel make_stack() {
+    ColliderDescription floor;
+    floor.shape = PlaneCollider{};
+    return test::make_blocks({{.place = {0, 0.002, 0}, .cells = {2, 2, 2}, .size = glm::dvec3(0.2)},
+                              {.place = {0.02, 0.206, 0}, .cells = {2, 2, 2}, .size = glm::dvec3(0.2)}},
+                             {0, -9.81, 0}, {floor});
+}
+
+class BodyContactsTest : public test::GlTest {};
+class BodyContactsLong : public test::GlTest {};
+
+// Violent scenes of all materials, above a plane or a box. @param is_short_of_room at first
+void fuzz(unsigned first, unsigned count, int steps, bool is_short_of_room) {
+    for (unsigned seed = first; seed < first + count; ++seed) {
+        test::RandomMaker random(seed);
+        std::vector<Block> blocks = test::violent_blocks(random, 4);
+        for (Block& block : blocks) {
+            block.poisson_ratio = random.integer(0, 1) == 0 ? 0.25 : 0.4;
+            if (random.integer(0, 2) == 0) block.model = MaterialModel::neo_hookean;
+        }
+        ColliderDescription ground;
+        ground.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.1};
+        if (random.integer(0, 1) == 0) {
+            ground.shape = BoxShape{{4.0, 0.2, 4.0}};
+            ground.position = {0.0, -0.2, 0.0};
+        }
+        const SharedModel model = test::make_blocks(blocks, {0, -9.81, 0}, {ground});
+        Settings settings;
+        const int substeps = random.integer(1, 16);
+        settings.iterations = random.integer(1, 60);
+        settings.divides_steps = random.integer(0, 1) == 0;
+        if (is_short_of_room) settings.room = gpu::PairCapacity{1, 8, 8, 40};
+        gpu::ImplicitSolver solver = make_solver(model, settings);
+        const auto energy_of = [&] {
+            const State state = solver.read_state();
+            return test::sum_bodies<float>(*model, {state.positions, state.velocities});
+        };
+        const test::BodySums energy = energy_of();
+        for (int step = 0; step < steps; ++step) {
+            solver.advance({kFrame / substeps});
+            ASSERT_EQ(test::count_overlaps(*model, std::span<const cpu::Vec4<float>>(solver.read_state().positions)), 0u)
+                << "scene " << seed << ", step " << step;
+            ASSERT_LE(energy_of().sum(), energy.sum() + 0.2 * energy.kinetic)
+                << "scene " << seed << ", step " << step;
+        }
+    }
+}
+
+TEST_F(BodyContactsTest, NothingPassesThroughAnything) {
+    fuzz(1, 2, 12, false);
+}
+
+TEST_F(BodyContactsTest, NothingPassesThroughAnythingInNoRoom) {
+    fuzz(3, 1, 12, true);
+}
+
+TEST_F(BodyContactsLong, NothingPassesThroughAnything) {
+    fuzz(100, 150, 15, false);
+    fuzz(300, 50, 15, true);
+}
+
+State state_after(gpu::ImplicitSolver& solver, int frames) {
+    for (int frame = 0; frame < frames; ++frame) solver.advance({kFrame});
+    return solver.read_state();
+}
+
+// What had no room is made again when it has.
+TEST_F(BodyContactsTest, RoomDoesNotMatter) {
+    const SharedModel model = make_stack();
+    gpu::ImplicitSolver narrow = make_solver(model, {.room = gpu::PairCapacity{1, 8, 8, 10}}),
+                        wide = make_solver(model);
+    EXPECT_EQ(state_after(narrow, 8).positions, state_after(wide, 8).positions);
+}
+
+TEST_F(BodyContactsTest, RepeatsBitForBitAndStartsAgain) {
+    const SharedModel model = make_stack();
+    gpu::ImplicitSolver solver = make_solver(model), again = make_solver(model);
+    const State start = solver.read_state(), end = state_after(solver, 10);
+    EXPECT_EQ(state_after(again, 10).positions, end.positions);
+    again.write_state(start);
+    EXPECT_EQ(state_after(again, 10).positions, end.positions);
+}
+
+TEST_F(BodyContactsTest, GoOnFromACheckpoint) {
+    const SharedModel model = make_stack();
+    gpu::ImplicitSolver solver = make_solver(model);
+    State state = state_after(solver, 10);
+    state.memory = solver.memory();
+    gpu::ImplicitSolver other = make_solver(model, {.room = gpu::PairCapacity{1, 8, 8, 10}});
+    other.write_state(state);
+    const State end = state_after(solver, 5);
+    EXPECT_EQ(state_after(other, 5).positions, end.positions);
+    State without = state;
+    without.memory.clear();
+    other.write_state(without);
+    EXPECT_NE(state_after(other, 5).positions, end.positions);
+}
+
+TEST_F(BodyContactsTest, ForcesAreWeights) {
+    const SharedModel model = make_stack();
+    gpu::ImplicitSolver solver = make_solver(model);
+    state_after(solver, 100);
+    const double weight = 9.81 * (model->objects[0].mass + model->objects[1].mass);
+    const ContactForces forces = solver.contact_forces();
+    ASSERT_EQ(forces.between.size(), 2u);  // the upper one on the lower one, and that on the floor
+    for (const ContactForces::Between& between : forces.between) {
+        const double carried = between.is_plane ? weight : 9.81 * model->objects[1].mass;
+        EXPECT_NEAR(std::abs(between.normal.y), carried, 0.02 * carried);
+        EXPECT_GT(between.points, 0u);
+    }
+    glm::dvec3 on_nodes(0.0);
+    for (const glm::dvec3& force : forces.normal) on_nodes += force;
+    EXPECT_NEAR(on_nodes.y, weight, 0.02 * weight);
+}
+
+}  // namespace
+}  // namespace gelatin
