@@ -46,7 +46,20 @@ BodyContacts::BodyContacts(const Model& model, const ContactSurface& surface, St
       system_(&system),
       object_of_(objects_of_nodes(model)),
       guard_(model, state, pairs),
-      row_forces_(gl::Program::compute("sim/implicit/row_forces.comp")) {}
+      row_forces_(gl::Program::compute("sim/implicit/row_forces.comp")),
+      begin_follow_(gl::Program::compute("sim/implicit/follow_shapes.comp")),
+      end_follow_(gl::Program::compute("sim/implicit/follow_shapes.comp", {"END"})) {
+    for (const gl::Program* program : {&begin_follow_, &end_follow_}) {
+        state.bind(*program);
+        program->bind_declared("positions", state.from.position_texels);
+        program->bind_declared("Positions", state.from.positions);
+        program->bind_declared("Velocities", state.from.velocities);
+        program->bind_declared("end_positions", state.to.position_texels);
+        program->bind_declared("end_velocities", state.to.velocity_texels);
+        program->bind_declared("Guard", guard_.found());
+        program->set("node_count", model.node_count());
+    }
+}
 
 void BodyContacts::find(const ModelBuffers& model) const {
     finder.run(model);
@@ -61,6 +74,18 @@ void BodyContacts::guard(const ModelBuffers& model) const {
         guard_.decide();
     }
     guard_.close();
+}
+
+void BodyContacts::follow(const ModelBuffers& model) const {
+    begin_follow_.dispatch(model_->node_count());
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+    finder.run(model, false);
+    rows.find_guard_islands(guard_.islands.values);
+    guard_.run(model);
+    guard_.decide();
+    guard_.close();
+    end_follow_.dispatch(model_->node_count());
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
 // Lists behind the one that was full are empty: that these have no place either a later try says.

@@ -41,6 +41,9 @@ public:
     /// Nodes of state.to, as PartEnd::finish wants them, go as far as nothing crosses. Ends with the barrier
     /// for PartEnd::settle.
     void guard(const ModelBuffers& model) const;
+    /// Where a step begins: takes bodies from state.from to where shapes were put back, state.to, if nothing
+    /// is in their way; else they stay. Ends with the barrier for who reads nodes.
+    void follow(const ModelBuffers& model) const;
     /// If the part is made, what contacts held in it. @param changes of PartEnd::settle
     void remember(const gl::Buffer<BodyChange>& changes) const { rows.remember(changes); }
 
@@ -65,7 +68,7 @@ private:
     StepSystem* system_;
     std::vector<std::uint32_t> object_of_;  // by node
     PairGuard guard_;
-    gl::Program row_forces_;
+    gl::Program row_forces_, begin_follow_, end_follow_;
 };
 
 }  // namespace gelatin::gpu

@@ -176,8 +176,10 @@ void FindPairs::find_boxes(const ModelBuffers& model) const {
         update_level(level == 0 ? programs_.box_leaves : programs_.box_nodes, trees_, level);
 }
 
-void FindPairs::run(const ModelBuffers& model) const {
+void FindPairs::run(const ModelBuffers& model, bool own) const {
     const Programs& p = programs_;
+    for (const gl::Program* program : {&p.find_paths, &p.count_slots, &p.list_slots})
+        program->set("finds_own", own && p.own ? 1u : 0u);
     run_groups(p.find_paths, object_count_);
     find_boxes(model);
     if (convex_.tet_count > 0) {

@@ -35,7 +35,8 @@ public:
 
     /// Finds the pairs of `state.predicted`, or in a try that goes on with the guard alone those of the paths
     /// that it has left. Ends with the barrier for whoever reads them.
-    void run(const ModelBuffers& model) const;
+    /// @param own whether bodies that may meet themselves are searched for it
+    void run(const ModelBuffers& model, bool own = true) const;
     /// Whether bodies may meet themselves where nodes end, though pairs were left out, as they hardly
     /// deformed: sets PairCounts::has_lost; then the guard has to be asked for again, before which run()
     /// lists them, too.

@@ -59,6 +59,10 @@ struct Memory {
     }
 };
 
+bool are_lost(std::span<const float> times) {
+    return std::any_of(times.begin(), times.end(), [](float time) { return time > thresholds::kPatience; });
+}
+
 void copy_nodes(const NodeBuffers& from, NodeBuffers& to) {
     gl::barrier(gl::Barrier::buffer_update);
     to.positions.copy_from(from.positions);
@@ -89,6 +93,7 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
 void ImplicitSolver::write_state(const State& state) {
     GpuSolver::write_state(state);
     goes_on_ = keeps_held_ = false;
+    may_be_lost_ = true;
     if (restore(state.memory)) return;
     end_.forget();
     if (contacts_) contacts_->rows.forget();
@@ -137,6 +142,7 @@ bool ImplicitSolver::restore(std::string_view bytes) {
     if (!archive.is_complete()) return false;
     end_.set_memory(memory.end);
     shape_matcher_.set_lost_for(memory.lost_for);
+    may_be_lost_ = are_lost(memory.lost_for);
     if (!contacts_) return true;
     PairCapacity capacity = contacts_->pairs.capacity;
     if (memory.contacts.rows.size() > capacity.pairs) {
@@ -158,13 +164,25 @@ void ImplicitSolver::advance_nodes(const Step& step) {
     gl::barrier(gl::Barrier::storage);  // copies have to have read what this writes
     start_.begin_step(previous_, step.size, divides_steps_, keeps_held_);
     keeps_held_ = contacts_.has_value();
-    if (!contacts_) {
-        gl::barrier(gl::Barrier::buffer_update);
-        shape_matcher_.run(state_.from, step.size);
-    }
+    match_shapes(step.size);
     end_.begin_step(buffers_);
     has_earlier_ = true;
     make_tries();
+}
+
+// With contacts shapes are put back only if nothing is in the way, which is asked a step after a body seems
+// to be lost: hardly any ever is.
+void ImplicitSolver::match_shapes(double elapsed) {
+    if (!contacts_) {
+        gl::barrier(gl::Barrier::buffer_update);
+        shape_matcher_.run(state_.from, elapsed);
+        return;
+    }
+    copy_nodes(state_.from, state_.to);
+    gl::barrier(gl::Barrier::storage);
+    shape_matcher_.run(state_.to, elapsed);
+    if (may_be_lost_) contacts_->follow(buffers_);
+    lost_for_.begin(shape_matcher_.lost_for_buffer().id(), model_->objects.size() * sizeof(float));
 }
 
 // And begins to ask whether they were enough.
@@ -207,6 +225,11 @@ void ImplicitSolver::grow(const PairCapacity& capacity) {
 }
 
 void ImplicitSolver::complete() {
+    while (lost_for_.pending() > 0) {
+        std::vector<float> times(model_->objects.size());
+        std::memcpy(times.data(), lost_for_.take().data(), times.size() * sizeof(float));
+        may_be_lost_ = are_lost(times);
+    }
     while (clocks_.pending() > 0) {
         StepClock clock;
         std::memcpy(&clock, clocks_.take().data(), sizeof(clock));

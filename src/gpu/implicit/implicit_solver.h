@@ -43,6 +43,7 @@ protected:
     void advance_nodes(const Step& step) override;
 
 private:
+    void match_shapes(double elapsed);
     void make_tries();
     void make_try();
     void grow(const PairCapacity& capacity);
@@ -58,11 +59,13 @@ private:
     PartEnd end_;
     ShapeMatcher shape_matcher_;  // of bodies that have lost their shape, before they move
     const SumLoads* loads_ = nullptr;
-    bool goes_on_ = false;     // with earlier velocities of a state that was written
-    bool keeps_held_ = false;  // state_ has nodes where the last step ended
-    std::uint32_t tries_ = 2;  // to launch
-    bool has_warned_ = false;  // of contacts without a place
-    gl::Readback clocks_;      // of steps that were launched: of one at most
+    bool goes_on_ = false;      // with earlier velocities of a state that was written
+    bool keeps_held_ = false;   // state_ has nodes where the last step ended
+    std::uint32_t tries_ = 2;   // to launch
+    bool has_warned_ = false;   // of contacts without a place
+    bool may_be_lost_ = false;  // by the step before: a body has lost its shape
+    gl::Readback clocks_;       // of steps that were launched: of one at most
+    gl::Readback lost_for_;     // the same, with contacts
 };
 
 }  // namespace gelatin::gpu

@@ -25,6 +25,7 @@ public:
     /// @pre barrier(buffer_update) since the last run
     std::vector<float> lost_for() const;
     void set_lost_for(std::span<const float> times) { lost_for_.upload(times); }
+    const gl::Buffer<float>& lost_for_buffer() const { return lost_for_; }
     /// Nodes were set from outside.
     void forget();
 

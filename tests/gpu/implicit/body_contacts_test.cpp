@@ -73,7 +73,9 @@ void fuzz(unsigned first, unsigned count, int steps, bool is_short_of_room) {
         const test::BodySums energy = energy_of();
         for (int step = 0; step < steps; ++step) {
             solver.advance({kFrame / substeps});
-            ASSERT_EQ(test::count_overlaps(*model, std::span<const cpu::Vec4<float>>(solver.read_state().positions)), 0u)
+            ASSERT_EQ(test::count_overlaps(*model,
+                                           std::span<const cpu::Vec4<float>>(solver.read_state().positions)),
+                      0u)
                 << "scene " << seed << ", step " << step;
             ASSERT_LE(energy_of().sum(), energy.sum() + 0.2 * energy.kinetic)
                 << "scene " << seed << ", step " << step;
@@ -146,6 +148,56 @@ TEST_F(BodyContactsTest, ForcesAreWeights) {
     glm::dvec3 on_nodes(0.0);
     for (const glm::dvec3& force : forces.normal) on_nodes += force;
     EXPECT_NEAR(on_nodes.y, weight, 0.02 * weight);
+}
+
+// Nodes of the first body are anywhere in a tenth of its extent.
+State scattered(const Model& model) {
+    State state{model.positions, model.velocities, model.velocities, {}};
+    test::RandomMaker random(3);
+    for (std::uint32_t n = 0; n < model.objects[0].nodes.count; ++n)
+        state.positions[n] =
+            glm::vec4(glm::vec3(glm::dvec3(0.15) + random.point(0.015)), state.positions[n].w);
+    return state;
+}
+
+// Of the first body [m].
+float extent_of(const Model& model, std::span<const glm::vec4> positions) {
+    float most = 0.0f;
+    for (const glm::vec4& x : positions.first(model.objects[0].nodes.count))
+        most = std::max(most, glm::distance(glm::vec3(x), glm::vec3(positions[0])));
+    return most;
+}
+
+TEST_F(BodyContactsTest, ShapesArePutBack) {
+    const SharedModel model = test::make_blocks({{.youngs_modulus = 3e4}, {.place = {1, 0, 0}}});
+    gpu::ImplicitSolver solver = make_solver(model);
+    auto reference = test::make_solver<float>(model);
+    solver.write_state(scattered(*model));
+    reference.write_state(scattered(*model));
+    const std::vector<glm::vec4> positions = state_after(solver, 3).positions;
+    for (int frame = 0; frame < 3; ++frame) reference.advance({kFrame});
+    double farthest = 0.0;
+    for (std::uint32_t n = 0; n < model->node_count(); ++n)
+        farthest = std::max<double>(
+            farthest, glm::distance(glm::vec3(positions[n]), glm::vec3(reference.nodes().positions[n])));
+    EXPECT_LT(farthest, 1e-3);
+    EXPECT_GT(extent_of(*model, positions), 0.95f * extent_of(*model, model->positions));
+}
+
+TEST_F(BodyContactsTest, ShapesAreNotPutBackThroughOthers) {
+    const SharedModel model = test::make_blocks({{.youngs_modulus = 3e4}, {.place = {0.05, 0.18, 0.05}}});
+    gpu::ImplicitSolver solver = make_solver(model);
+    solver.write_state(scattered(*model));
+    ASSERT_LT(extent_of(*model, state_after(solver, 1).positions),
+              0.7f * extent_of(*model, model->positions));
+    for (int frame = 0; frame < 8; ++frame) {
+        solver.advance({kFrame});
+        const State state = solver.read_state();
+        ASSERT_EQ(test::count_overlaps(*model, std::span<const cpu::Vec4<float>>(state.positions),
+                                       test::Overlaps::between),
+                  0u)
+            << frame;
+    }
 }
 
 }  // namespace
