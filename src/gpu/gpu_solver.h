@@ -34,7 +34,7 @@ public:
     Measurement end_measure() override { return measure_.end(); }
     // No kernel finds forces.
     ContactForces contact_forces() override { return {}; }
-    HoldingForces holding_forces() const override { return {}; }
+    HoldingForces holding_forces() override { return {}; }
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) override { return {}; }
     State read_state() override;
     HostNodes host_nodes() const override { return {}; }

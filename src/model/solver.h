@@ -148,7 +148,7 @@ public:
 
     /// What pins and handles exert at present; zero before the first step. Empty without any, and from
     /// solvers that do not find it.
-    virtual HoldingForces holding_forces() const = 0;
+    virtual HoldingForces holding_forces() = 0;
 
     /// The handles with nodes that bodies keep from where their poses have them, each an index in
     /// Model::handles; none without CollisionResponse::contact. Waits for a

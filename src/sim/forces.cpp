@@ -39,7 +39,7 @@ std::size_t count_collider_contacts(const Model& model, const ContactForces& fou
     return count;
 }
 
-std::vector<HoldingForce> holding_forces(const Model& model, const Solver& solver) {
+std::vector<HoldingForce> holding_forces(const Model& model, Solver& solver) {
     const HoldingForces sums = solver.holding_forces();
     std::vector<HoldingForce> forces;
     for (std::size_t h = 0; h < sums.by_handle.size(); ++h) {

@@ -18,6 +18,6 @@ std::size_t count_collider_contacts(const Model& model, const ContactForces& fou
 
 /// Of a solver's present state, in the order of Simulator::held_nodes; empty if the solver does not find
 /// them.
-std::vector<HoldingForce> holding_forces(const Model& model, const Solver& solver);
+std::vector<HoldingForce> holding_forces(const Model& model, Solver& solver);
 
 }  // namespace gelatin

@@ -22,7 +22,7 @@ public:
     void move_pull(std::size_t pull, const glm::dvec3& target) override { host_.move_pull(pull, target); }
     void set_forces(std::span<const glm::vec3> forces) override { host_.set_forces(forces); }
     ContactForces contact_forces() override { return host_.contact_forces(); }
-    HoldingForces holding_forces() const override { return host_.holding_forces(); }
+    HoldingForces holding_forces() override { return host_.holding_forces(); }
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override {
         return host_.held_up(poses);
     }

@@ -101,7 +101,7 @@ TEST(Standstills, NameHandles) {
     model.handles.resize(2);
     for (Handle& handle : model.handles) handle.stops = true;
     model.handles[1].index = 1;
-    const cpu::SystemSolver<float> solver = test::make_solver<float>(Press(0.5).model);
+    cpu::SystemSolver<float> solver = test::make_solver<float>(Press(0.5).model);
     const std::vector<std::uint32_t> second{1};
     Standstills standstills;
     EXPECT_THAT(standstills.look(model, solver, second, std::vector<double>{0.0, 0.0}, 1.0),

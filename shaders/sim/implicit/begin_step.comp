@@ -10,11 +10,13 @@ uniform samplerBuffer given_velocities;  // xyz [m/s]
 uniform uint node_count;
 uniform float size;                // of the step [s]
 uniform uint divides;
-uniform uint keeps_held;           // 1: nodes are where the last step ended
+uniform uint is_next;              // 1: nodes are where the last step ended
+uniform uint keeps_held;           // 1: so held ones go on from there
 layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) writeonly buffer Goals { vec4 goals[]; };  // of held nodes [m]
 layout(std430) buffer Positions { vec4 positions[]; };
-layout(std430) writeonly buffer Velocities { vec4 velocities[]; };
+layout(std430) buffer Velocities { vec4 velocities[]; };
+layout(std430) writeonly buffer HeldChanges { vec4 held_changes[]; };  // of their velocities [m/s]
 
 void begin_clock() {
     StepClock now = clock[0];  // what parts pass on goes on
@@ -39,10 +41,12 @@ void main() {
     if (n == 0u) begin_clock();
     if (n >= node_count) return;
     vec4 x = texelFetch(given_positions, int(n)), v = texelFetch(given_velocities, int(n));
+    bool is_held = x.w == 0.0, was_held = is_next != 0u && positions[n].w == 0.0;
+    held_changes[n] = is_held && was_held ? vec4(v.xyz - velocities[n].xyz, 0.0) : vec4(0.0);
     velocities[n] = v;
-    if (x.w == 0.0) {
+    if (is_held) {
         goals[n] = vec4(x.xyz + size * v.xyz, 0.0);
-        if (keeps_held != 0u && positions[n].w == 0.0) return;
+        if (keeps_held != 0u && was_held) return;
     }
     positions[n] = x;
 }

@@ -18,7 +18,7 @@ public:
                    const CollisionSettings& collision = {});
 
     ContactForces contact_forces() override { return {}; }
-    HoldingForces holding_forces() const override { return {}; }
+    HoldingForces holding_forces() override { return {}; }
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) override { return {}; }
 
 protected:

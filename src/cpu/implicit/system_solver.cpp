@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "cpu/contact/tuning.h"
-#include "cpu/implicit/holding_forces.h"
 #include "model/contact/held_up.h"
+#include "model/drive/holding_forces.h"
 
 namespace gelatin::cpu {
 
@@ -110,7 +110,7 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
 }
 
 template <class Real>
-HoldingForces SystemSolver<Real>::holding_forces() const {
+HoldingForces SystemSolver<Real>::holding_forces() {
     const bool holds_bodies = !model_->handles.empty() && model_->is_body(model_->handles[0].object);
     if (!holds_bodies) return {};
     std::vector<glm::dvec3> others = forces_on_held_;

@@ -23,7 +23,7 @@ public:
     ContactForces contact_forces() override { return step_.contact_forces(); }
     /// What contacts and their friction hold [J].
     double contact_energy() const { return step_.contact_energy(); }
-    HoldingForces holding_forces() const override;
+    HoldingForces holding_forces() override;
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override;
     std::string memory() override;
     void write_state(const State& state) override;

@@ -86,13 +86,15 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
       start_(*model_, state_, system_, contacts_ ? &contacts_->rows : nullptr),
       end_(*model_, state_, system_, contacts_ ? &surface_ : nullptr),
       shape_matcher_(*model_) {
+    if (!model_->handles.empty() && model_->is_body(model_->handles[0].object))
+        held_forces_.emplace(*model_, state_, system_);
     system_.iterations = settings.iterations;
     set_contact_distances({surface_.thicknesses.begin(), surface_.thicknesses.end()});
 }
 
 void ImplicitSolver::write_state(const State& state) {
     GpuSolver::write_state(state);
-    goes_on_ = keeps_held_ = false;
+    goes_on_ = is_next_ = false;
     may_be_lost_ = true;
     if (restore(state.memory)) return;
     end_.forget();
@@ -114,6 +116,12 @@ std::vector<std::uint32_t> ImplicitSolver::held_up(std::span<const HandlePose> p
     std::vector<glm::vec4> positions(current_.positions.size());
     current_.positions.download(positions);
     return find_held_up<glm::vec4>(*model_, surface_, positions, poses);
+}
+
+HoldingForces ImplicitSolver::holding_forces() {
+    if (!held_forces_) return {};
+    complete();
+    return held_forces_->read(buffers_, loads_, size_);
 }
 
 std::string ImplicitSolver::memory() {
@@ -151,7 +159,7 @@ bool ImplicitSolver::restore(std::string_view bytes) {
     }
     contacts_->rows.set_memory(memory.contacts);
     state_.from.positions.upload(memory.ended_at);
-    return keeps_held_ = true;
+    return is_next_ = true;
 }
 
 void ImplicitSolver::advance_nodes(const Step& step) {
@@ -162,8 +170,9 @@ void ImplicitSolver::advance_nodes(const Step& step) {
     loads_ = loads_of(step);
     std::swap(current_, previous_);
     gl::barrier(gl::Barrier::storage);  // copies have to have read what this writes
-    start_.begin_step(previous_, step.size, divides_steps_, keeps_held_);
-    keeps_held_ = contacts_.has_value();
+    start_.begin_step(previous_, step.size, divides_steps_, is_next_);
+    is_next_ = true;
+    size_ = step.size;
     match_shapes(step.size);
     end_.begin_step(buffers_);
     has_earlier_ = true;
@@ -222,6 +231,7 @@ void ImplicitSolver::grow(const PairCapacity& capacity) {
     contacts_->grow(capacity);
     start_.bind_buffers();
     end_.grow();
+    if (held_forces_) held_forces_->bind_buffers();
 }
 
 void ImplicitSolver::complete() {

@@ -11,6 +11,7 @@
 #include "gl/readback.h"
 #include "gpu/gpu_solver.h"
 #include "gpu/implicit/body_contacts.h"
+#include "gpu/implicit/held_forces.h"
 #include "gpu/implicit/part_end.h"
 #include "gpu/implicit/part_start.h"
 #include "gpu/implicit/step_state.h"
@@ -34,6 +35,7 @@ public:
                             const std::optional<PairCapacity>& room = {});
 
     ContactForces contact_forces() override;
+    HoldingForces holding_forces() override;
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override;
     std::string memory() override;
     void write_state(const State& state) override;
@@ -57,10 +59,12 @@ private:
     std::optional<BodyContacts> contacts_;  // between bodies
     PartStart start_;
     PartEnd end_;
-    ShapeMatcher shape_matcher_;  // of bodies that have lost their shape, before they move
+    std::optional<HeldForces> held_forces_;  // if bodies are held
+    ShapeMatcher shape_matcher_;             // of bodies that have lost their shape, before they move
     const SumLoads* loads_ = nullptr;
     bool goes_on_ = false;      // with earlier velocities of a state that was written
-    bool keeps_held_ = false;   // state_ has nodes where the last step ended
+    bool is_next_ = false;      // state_ has nodes where the last step ended
+    double size_ = 1.0;         // of the last step [s]
     std::uint32_t tries_ = 2;   // to launch
     bool has_warned_ = false;   // of contacts without a place
     bool may_be_lost_ = false;  // by the step before: a body has lost its shape

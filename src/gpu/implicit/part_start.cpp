@@ -96,10 +96,11 @@ void PartStart::run(const gl::Program& program, std::uint32_t groups) const {
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-void PartStart::begin_step(const NodeBuffers& nodes, double size, bool divides, bool keeps_held) const {
+void PartStart::begin_step(const NodeBuffers& nodes, double size, bool divides, bool is_next) const {
     programs_.begin_step.bind("given_positions", nodes.position_texels);
     programs_.begin_step.bind("given_velocities", nodes.velocity_texels);
-    programs_.begin_step.set("keeps_held", keeps_held ? 1u : 0u);
+    programs_.begin_step.set("is_next", is_next ? 1u : 0u);
+    programs_.begin_step.set("keeps_held", is_next && pairs_ != nullptr ? 1u : 0u);
     programs_.begin_step.set("size", static_cast<float>(size));
     programs_.begin_step.set("divides", divides ? 1u : 0u);
     run(programs_.begin_step, (node_count_ + 63) / 64);

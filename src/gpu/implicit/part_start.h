@@ -31,9 +31,9 @@ public:
 
     /// Once, when velocities of held nodes take them to where handles want them: copies nodes to state.from.
     /// @param size of the step [s] @param divides whether it is divided where bodies touch others
-    /// @param keeps_held whether state.from has nodes where the last step ended, so that held ones go on from
-    /// there, which may be blocked
-    void begin_step(const NodeBuffers& nodes, double size, bool divides, bool keeps_held = false) const;
+    /// @param is_next whether state.from has nodes where the last step ended: with PairRows held ones go on
+    /// from there, as they may be blocked
+    void begin_step(const NodeBuffers& nodes, double size, bool divides, bool is_next = false) const;
     /// A try, up to where StepSystem::solve(state.from) goes on: both of what follows. Ends with the barrier
     /// for it.
     /// @param loads that were summed where the part begins; null if the model has none

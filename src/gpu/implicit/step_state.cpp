@@ -10,6 +10,7 @@ StepState::StepState(const Model& model, const ContactSurface& surface)
       clock(std::vector<StepClock>(1)),
       paces(model.objects.size(), gl::TexelFormat::rgba32f),
       goals(model.positions.size(), gl::TexelFormat::rgba32f),
+      held_changes(model.positions.size(), gl::TexelFormat::rgba32f),
       predicted(model.positions.size(), gl::TexelFormat::rgba32f),
       accelerations(model.positions.size(), gl::TexelFormat::rgba32f),
       stiffness_(surface.stiffness, gl::TexelFormat::r32f),
@@ -27,6 +28,7 @@ void StepState::bind(const gl::Program& program) const {
     program.bind_declared("Clock", clock);
     paces.bind(program, "Paces", "paces");
     goals.bind(program, "Goals", "goals");
+    program.bind_declared("HeldChanges", held_changes.values);
     predicted.bind(program, "Predicted", "predicted");
     accelerations.bind(program, "Accelerations", "accelerations");
     program.bind_declared("PlaneMemories", plane_memories);

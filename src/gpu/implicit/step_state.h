@@ -26,6 +26,8 @@ public:
     gl::Buffer<StepClock> clock;  ///< one; block Clock, clock[0]
     StepBuffer<BodyPace> paces;   ///< by object: Paces, paces
     StepBuffer<glm::vec4> goals;  ///< where handles have held nodes at the end of the step [m]: Goals, goals
+    /// By how much velocities of held nodes have changed since the step before [m/s]: HeldChanges. By node.
+    StepBuffer<glm::vec4> held_changes;
     /// Displacements without forces of elements and contacts [m]; w: 1 / h of contacts, 0 of held nodes
     /// [m/N]: Predicted, predicted. By node, as are goals.
     StepBuffer<glm::vec4> predicted;

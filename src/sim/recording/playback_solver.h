@@ -20,7 +20,7 @@ public:
         holds_ = frame.holds;
     }
     ContactForces contact_forces() override { return contacts_; }
-    HoldingForces holding_forces() const override { return holds_; }
+    HoldingForces holding_forces() override { return holds_; }
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) override { return {}; }
     std::string device() const override { return "a recording"; }
 

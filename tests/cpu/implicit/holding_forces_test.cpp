@@ -1,4 +1,4 @@
-#include "cpu/implicit/holding_forces.h"
+#include "model/drive/holding_forces.h"
 
 #include <gtest/gtest.h>
 

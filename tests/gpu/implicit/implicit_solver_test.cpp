@@ -19,7 +19,6 @@
 namespace gelatin {
 namespace {
 
-
 Body soft_block(glm::ivec3 cells, glm::dvec3 place, MaterialModel material = MaterialModel::mass_spring) {
     Body body = test::make_body(test::make_block(cells, 0.1 * glm::dvec3(cells), 0.2));
     for (glm::dvec3& p : body.mesh.positions) p += place;

@@ -1,13 +1,13 @@
-#include "cpu/implicit/holding_forces.h"
+#include "model/drive/holding_forces.h"
 
 #include <glm/geometric.hpp>
 
-namespace gelatin::cpu {
+namespace gelatin {
 namespace {
 
 // Calls work(index in Model::handle_nodes, node, handle) for what holds nodes of bodies at present.
 template <class Real, class Work>
-void for_each_held(const Model& model, std::span<const Vec4<Real>> positions, const Work& work) {
+void for_each_held(const Model& model, std::span<const glm::vec<4, Real>> positions, const Work& work) {
     for (std::size_t h = 0; h < model.handle_nodes.size(); ++h) {
         const HandleNode& held = model.handle_nodes[h];
         const bool is_released = positions[held.node].w != Real(0);
@@ -18,7 +18,7 @@ void for_each_held(const Model& model, std::span<const Vec4<Real>> positions, co
 }  // namespace
 
 template <class Real>
-HoldingForces find_holding_forces(const Model& model, std::span<const Vec4<Real>> positions,
+HoldingForces find_holding_forces(const Model& model, std::span<const glm::vec<4, Real>> positions,
                                   std::span<const glm::dvec3> others,
                                   std::span<const glm::dvec3> accelerations) {
     const std::vector<glm::dvec3> none(model.handles.size(), glm::dvec3(0.0));
@@ -39,9 +39,9 @@ HoldingForces find_holding_forces(const Model& model, std::span<const Vec4<Real>
     return forces;
 }
 
-template HoldingForces find_holding_forces<float>(const Model&, std::span<const Vec4<float>>,
+template HoldingForces find_holding_forces<float>(const Model&, std::span<const glm::vec4>,
                                                   std::span<const glm::dvec3>, std::span<const glm::dvec3>);
-template HoldingForces find_holding_forces<double>(const Model&, std::span<const Vec4<double>>,
+template HoldingForces find_holding_forces<double>(const Model&, std::span<const glm::dvec4>,
                                                    std::span<const glm::dvec3>, std::span<const glm::dvec3>);
 
-}  // namespace gelatin::cpu
+}  // namespace gelatin

@@ -1,0 +1,65 @@
+// What pins and handles exert on the device beside what they do on the CPU: with loads, hands, contacts, and
+// handles that speed up.
+#include "gpu/implicit/held_forces.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "cpu/implicit/system_solver.h"
+#include "gpu/implicit/implicit_solver.h"
+#include "support/contact_scenes.h"
+#include "support/gl_fixture.h"
+
+namespace gelatin {
+namespace {
+
+using test::kFrame;
+
+class HeldForcesTest : public test::GlTest {};
+
+// A block that is held at its left side and one that falls on it.
+std::shared_ptr<const Model> held_block(MaterialModel material) {
+    const Region left = HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.01};
+    return test::make_blocks(
+        {{.pins = {left}, .model = material}, {.place = {0.05, 0.31, 0.02}, .velocity = {0.0, -1.0, 0.0}}},
+        {0, -9.81, 0});
+}
+
+// Pins speed up in the first steps.
+template <class SolverType>
+HoldingForces forces_of(const std::shared_ptr<const Model>& model, CollisionResponse response) {
+    SolverType solver(model, {.response = response}, {.divides_steps = true});
+    Pull hand;
+    hand.target = {0.5, 0.5, 0.2};
+    for (std::uint32_t n = 0; n < model->objects[0].nodes.count; ++n)
+        if (model->positions[n].x > 0.25f) hand.nodes.push_back({n, glm::vec3(0.0f), 20.0f});
+    solver.set_pulls({hand});
+    for (int frame = 0; frame < 8; ++frame) solver.advance({kFrame});
+    return solver.holding_forces();
+}
+
+TEST_F(HeldForcesTest, AreThoseOfTheCpu) {
+    for (const MaterialModel material : {MaterialModel::mass_spring, MaterialModel::neo_hookean})
+        for (const CollisionResponse response : {CollisionResponse::restore, CollisionResponse::contact}) {
+            const std::shared_ptr<const Model> model = held_block(material);
+            const HoldingForces expected = forces_of<cpu::SystemSolver<float>>(model, response),
+                                actual = forces_of<gpu::ImplicitSolver>(model, response);
+            ASSERT_EQ(actual.by_handle.size(), 1u);
+            const double force = glm::length(expected.by_handle[0]);
+            EXPECT_GT(force, 100.0);
+            EXPECT_LT(glm::distance(actual.by_handle[0], expected.by_handle[0]), 2e-3 * force);
+            EXPECT_LT(glm::distance(actual.torques[0], expected.torques[0]), 2e-3 * force);
+            ASSERT_EQ(actual.nodes.size(), model->node_count());
+            for (std::uint32_t n = 0; n < model->node_count(); ++n)
+                EXPECT_LT(glm::distance(actual.nodes[n], expected.nodes[n]), 5e-3 * force) << n;
+        }
+}
+
+TEST_F(HeldForcesTest, AreNoneBeforeTheFirstStep) {
+    gpu::ImplicitSolver solver(held_block(MaterialModel::mass_spring));
+    EXPECT_EQ(glm::length(solver.holding_forces().by_handle[0] - glm::dvec3(0.0)), 0.0);
+}
+
+}  // namespace
+}  // namespace gelatin
