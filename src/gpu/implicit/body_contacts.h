@@ -20,8 +20,8 @@ namespace gelatin::gpu {
 
 /// What contact between bodies, of bodies with themselves, and with surfaces of colliders adds to a try of a
 /// part: near pairs of surfaces, their rows in the system, and the guard. The order of a try:
-/// PartStart::predict, find(), PartStart::make_system, StepSystem::solve, note(), PartEnd::finish, guard(),
-/// PartEnd::settle, remember(). CPU twin: cpu::ImplicitStep.
+/// PartStart::predict, find(), PartStart::find_rows and linearise, StepSystem::solve, note(),
+/// PartEnd::finish, guard(), PartEnd::settle, remember(). CPU twin: cpu::ImplicitStep.
 class BodyContacts {
 public:
     /// @param own whether bodies meet themselves @param room at first; it grows
@@ -34,7 +34,7 @@ public:
     static RowCapacity capacity_of(const Model& model, const PairCapacity& room);
 
     /// Pairs that may come near each other where nodes go by state.predicted. Ends with the barrier for
-    /// PartStart::make_system.
+    /// PartStart::find_rows.
     void find(const ModelBuffers& model) const;
     /// What contacts hold, after the solve.
     void note() const { rows.note(); }

@@ -204,26 +204,34 @@ void ImplicitSolver::make_tries() {
 void ImplicitSolver::make_try() {
     StageTimer* const timer = timer_.for_parts();
     if (loads_ != nullptr) loads_->run(state_.from);
-    if (contacts_) {
+    const auto solve = [&] {
+        const TimedStage part(timer, "advance_nodes.solve");
+        system_.solve(state_.from);
+    };
+    if (!contacts_) {
+        start_.run(buffers_, loads_, timer);
+        solve();
+        return end_.run(buffers_, loads_, timer);
+    }
+    {
         const TimedStage part(timer, "advance_nodes.detect");
         start_.predict(buffers_, loads_);
         contacts_->find(buffers_);
-    } else {
-        start_.predict(buffers_, loads_);
+        start_.find_rows(buffers_, loads_);
     }
-    start_.make_system(buffers_, loads_, timer);
     {
-        const TimedStage part(timer, "advance_nodes.solve");
-        system_.solve(state_.from);
+        const TimedStage part(timer, "advance_nodes.linearise");
+        start_.linearise(buffers_, loads_);
     }
-    if (!contacts_) return end_.run(buffers_, loads_, timer);
-    contacts_->note();
-    end_.finish(buffers_, loads_, timer);
+    solve();
     {
-        const TimedStage part(timer, "advance_nodes.guard");
-        contacts_->guard(buffers_);
+        const TimedStage part(timer, "advance_nodes.finish");
+        contacts_->note();
+        end_.finish(buffers_, loads_);
     }
-    end_.settle(buffers_, timer);
+    const TimedStage part(timer, "advance_nodes.guard");
+    contacts_->guard(buffers_);
+    end_.settle(buffers_);
     contacts_->remember(end_.changes());
 }
 

@@ -244,7 +244,7 @@ void PartEnd::begin_step(const ModelBuffers& model) const {
     run(programs_.begin_energies, (object_count_ + 63) / 64);
 }
 
-void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
+void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads) const {
     const Programs& p = programs_;
     for (const gl::Program* program : {&p.finish, &p.measure}) {
         if (loads != nullptr) loads->bind(*program);
@@ -252,7 +252,6 @@ void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads, StageTime
     }
     model.volume_term.bind(p.keep);
     p.measure.bind("colliders", model.colliders);
-    const TimedStage part(timer, "advance_nodes.finish");
     if (p.has_contacts) run(p.tie_bodies, 1);
     for (const gl::Program* program : {&p.sum_motions, &p.finish, &p.keep}) run(*program, chunk_count_);
     run(p.sum_velocities, object_count_);
@@ -262,7 +261,10 @@ void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads, StageTime
 }
 
 void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
-    finish(model, loads, timer);
+    {
+        const TimedStage part(timer, "advance_nodes.finish");
+        finish(model, loads);
+    }
     const TimedStage part(timer, "advance_nodes.guard");
     if (has_colliders_) {
         model.bind_colliders(programs_.guard);
@@ -272,8 +274,7 @@ void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* 
     end_part(model);
 }
 
-void PartEnd::settle(const ModelBuffers& model, StageTimer* timer) const {
-    const TimedStage part(timer, "advance_nodes.guard");
+void PartEnd::settle(const ModelBuffers& model) const {
     run(programs_.sum_guarded, chunk_count_);
     end_guarded(model);
     end_part(model);

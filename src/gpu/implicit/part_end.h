@@ -47,10 +47,10 @@ public:
     void run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
     /// Its first part: where nodes are wanted, in state.to; and whether the part is made again by Euler's
     /// scheme. Ends with the barrier for whoever moves them as textures or storage.
-    void finish(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
+    void finish(const ModelBuffers& model, const SumLoads* loads) const;
     /// What is left, after a guard has moved nodes in state.to, if it has.
     /// @pre there are contacts, and what has moved them ended with the barrier for textures
-    void settle(const ModelBuffers& model, StageTimer* timer = nullptr) const;
+    void settle(const ModelBuffers& model) const;
 
     /// Nodes were set from outside.
     void forget();

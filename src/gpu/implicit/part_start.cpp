@@ -110,8 +110,10 @@ void PartStart::run(const ModelBuffers& model, const SumLoads* loads, StageTimer
     {
         const TimedStage part(timer, "advance_nodes.detect");
         predict(model, loads);
+        find_rows(model, loads);
     }
-    make_system(model, loads, timer);
+    const TimedStage part(timer, "advance_nodes.linearise");
+    linearise(model, loads);
 }
 
 void PartStart::predict(const ModelBuffers& model, const SumLoads* loads) const {
@@ -122,16 +124,11 @@ void PartStart::predict(const ModelBuffers& model, const SumLoads* loads) const 
     run(programs_.predict, chunk_count_);
 }
 
-void PartStart::make_system(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
+void PartStart::linearise(const ModelBuffers& model, const SumLoads* loads) const {
     const Programs& p = programs_;
     if (loads != nullptr) loads->bind(p.find_targets);
     p.find_targets.set("gravity", model.gravity);
     model.pulls.bind(p.find_targets);
-    {
-        const TimedStage part(timer, "advance_nodes.detect");
-        find_rows(model, loads != nullptr || model.pulls.is_acting());
-    }
-    const TimedStage part(timer, "advance_nodes.linearise");
     run(p.find_targets, chunk_count_);
     run(p.find_enough, body_count_);
     system_.elastic.linearise(model, state_.from, damping_times_.texels, state_.clock);
@@ -140,8 +137,9 @@ void PartStart::make_system(const ModelBuffers& model, const SumLoads* loads, St
     run(p.follow_rotation, chunk_count_);
 }
 
-void PartStart::find_rows(const ModelBuffers& model, bool has_forces) const {
+void PartStart::find_rows(const ModelBuffers& model, const SumLoads* loads) const {
     const Programs& p = programs_;
+    const bool has_forces = loads != nullptr || model.pulls.is_acting();
     if (p.has_planes) {
         model.bind_colliders(p.count_rows);
         run(p.count_rows, chunk_count_);

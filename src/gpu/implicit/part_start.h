@@ -34,15 +34,16 @@ public:
     /// @param is_next whether state.from has nodes where the last step ended: with PairRows held ones go on
     /// from there, as they may be blocked
     void begin_step(const NodeBuffers& nodes, double size, bool divides, bool is_next = false) const;
-    /// A try, up to where StepSystem::solve(state.from) goes on: both of what follows. Ends with the barrier
+    /// A try, up to where StepSystem::solve(state.from) goes on: all of what follows. Ends with the barrier
     /// for it.
     /// @param loads that were summed where the part begins; null if the model has none
     /// @param timer of the parts of the step, with the names that cpu::ImplicitStep has; null: none
     void run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
     /// Where nodes would go. Ends with the barrier for who finds near pairs there.
     void predict(const ModelBuffers& model, const SumLoads* loads) const;
-    /// When these are found.
-    void make_system(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer = nullptr) const;
+    /// When these are found: contacts, islands, and whether the part is short enough.
+    void find_rows(const ModelBuffers& model, const SumLoads* loads) const;
+    void linearise(const ModelBuffers& model, const SumLoads* loads) const;
 
 private:
     struct Programs {
@@ -52,7 +53,6 @@ private:
             find_targets, find_enough, sum_motions, follow_rotation;
         bool has_planes;
     };
-    void find_rows(const ModelBuffers& model, bool has_forces) const;
     void run(const gl::Program& program, std::uint32_t groups) const;
 
     const StepState& state_;

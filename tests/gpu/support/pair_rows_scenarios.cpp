@@ -257,7 +257,8 @@ double overflow_error(StartCase at, bool pairs_are_full) {
         counts.pairs = counts.slots = 1u << 30;
         gpu.start.predict(gpu.buffers, nullptr);
         gpu.pairs->counts.upload(std::vector{counts});
-        gpu.start.make_system(gpu.buffers, nullptr);
+        gpu.start.find_rows(gpu.buffers, nullptr);
+        gpu.start.linearise(gpu.buffers, nullptr);
     } else {
         gpu.run();
     }
@@ -281,7 +282,8 @@ double guard_error(const StartCase& at) {
     gpu.state.clock.upload(std::vector{clock});
     gpu.start.predict(gpu.buffers, nullptr);
     gpu.pairs->counts.upload(std::vector{PairCounts{}});
-    gpu.start.make_system(gpu.buffers, nullptr);
+    gpu.start.find_rows(gpu.buffers, nullptr);
+    gpu.start.linearise(gpu.buffers, nullptr);
     const gpu::RowTables after = gpu.system.buffers().tables();
     const bool has_changed =
         gpu.read_clock().goes_on != 1 || after.row_entries != before.row_entries ||
@@ -315,7 +317,8 @@ void make_again(const StartCase& at) {
     gpu.run();
     for (int k = 0; k < 2; ++k) {
         gpu.start.predict(gpu.buffers, nullptr);
-        gpu.start.make_system(gpu.buffers, nullptr);
+        gpu.start.find_rows(gpu.buffers, nullptr);
+        gpu.start.linearise(gpu.buffers, nullptr);
     }
     gpu.system.buffers().tables();
     gpu.pair_rows->note();

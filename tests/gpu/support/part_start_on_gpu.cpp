@@ -192,7 +192,8 @@ bool StartOnGpu::run() {
         if (pairs) {
             start.predict(buffers, loads);
             upload(near_[std::min(k, near_.size() - 1)]);
-            start.make_system(buffers, loads);
+            start.find_rows(buffers, loads);
+            start.linearise(buffers, loads);
         } else {
             start.run(buffers, loads);
         }
