@@ -71,7 +71,7 @@ public:
     }
     const Model& model() const { return *model_; }
     const cpu::CpuSolver<float>& solver() const { return solver_; }
-    HoldingForces forces() const { return solver_.holding_forces(); }
+    HoldingForces forces() { return solver_.holding_forces(); }
 
 private:
     std::shared_ptr<const Model> model_;

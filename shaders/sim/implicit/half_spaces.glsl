@@ -21,20 +21,24 @@ vec4 half_space(uint clip) { return vec4(0.0); }
 uint next_clip(uint clip) { return kNone; }
 #endif
 
-// No island as a whole goes into a plane.
+// No island as a whole goes into a plane, nor by what keeps it out of one into another.
 vec3 outside_planes(vec3 frame) {
     for (uint p = 0u; p < collider_ends.x; ++p) {
         vec3 normal = collider_center(p).xyz;
         frame -= min(dot(normal, frame), 0.0) * normal;
     }
+    for (uint p = 0u; p < collider_ends.x; ++p)
+        if (dot(collider_center(p).xyz, frame) < -1e-6 * length(frame)) return vec3(0.0);
     return frame;
 }
 
-// Of a collider that a node does not come too near to w is infinite.
-vec4 beside_collider(uint p, Guarded node) {
+// @param is_near output: whether a node comes too near where it is wanted
+// Of what is no plane, and not near, w is infinite. Planes count, as what keeps a node out of one may push it into another.
+vec4 beside_collider(uint p, Guarded node, out bool is_near) {
     vec4 start = distance_to_collider(p, node.from);
     float least = min(min(kLeastOfReach * node.thickness, kLeastOfGap * start.w), start.w);
-    if (distance_to_collider(p, node.to).w >= least) return vec4(0.0, 0.0, 0.0, 1e30);
+    is_near = !(distance_to_collider(p, node.to).w >= least);  // also where a solve has failed
+    if (!is_near && p >= collider_ends.x) return vec4(0.0, 0.0, 0.0, 1e30);
     return vec4(-start.xyz, start.w - least + dot(start.xyz, node.frame));
 }
 
@@ -57,19 +61,21 @@ float part_inside(vec4 space, vec3 d) {
 vec4 place(Guarded node, uint first) {
     vec3 d = node.to - node.from - node.frame;
     float tiny = 1e-6 * length(d), part = 1.0;
-    bool any = first != kNone, is_outside = true;
+    bool any = first != kNone, is_outside = true, is_near;
+    for (uint p = 0u; p < collider_ends.w && !any; ++p) {
+        beside_collider(p, node, is_near);
+        any = is_near;
+    }
+    if (!any) return vec4(d, 0.0);
     for (uint projection = 0u; projection < kProjections && is_outside; ++projection) {
         is_outside = false;
         for (uint clip = first; clip != kNone; clip = next_clip(clip))
             if (project(half_space(clip), tiny, d)) is_outside = true;
         for (uint p = collider_ends.w; p-- > 0u;) {
-            vec4 space = beside_collider(p, node);
-            if (space.w >= 1e30) continue;
-            any = true;
-            if (project(space, tiny, d)) is_outside = true;
+            if (project(beside_collider(p, node, is_near), tiny, d)) is_outside = true;
         }
     }
     for (uint clip = first; clip != kNone; clip = next_clip(clip)) part = min(part, part_inside(half_space(clip), d));
-    for (uint p = 0u; any && p < collider_ends.w; ++p) part = min(part, part_inside(beside_collider(p, node), d));
-    return vec4(part * d, any ? 1.0 : 0.0);
+    for (uint p = 0u; p < collider_ends.w; ++p) part = min(part, part_inside(beside_collider(p, node, is_near), d));
+    return vec4(part * d, 1.0);
 }

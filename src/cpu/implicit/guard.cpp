@@ -63,12 +63,22 @@ void Guard<Real>::find_frames(const Paths<Real>& paths, std::span<const NearPair
                          ? Vec3<Real>(0)
                          : Vec3<Real>(sums[island] / masses[island]);
     }
-    // No island as a whole goes into a plane.
-    for (const Collider& plane : model_->colliders) {
-        if (plane.kind != 0) continue;
-        const Vec3<Real> normal(plane.center);
-        for (Vec3<Real>& frame : frames_) frame -= std::min(glm::dot(normal, frame), Real(0)) * normal;
-    }
+    for (Vec3<Real>& frame : frames_) frame = outside_planes(frame);
+}
+
+// No island as a whole goes into a plane, nor by what keeps it out of one into another.
+template <class Real>
+Vec3<Real> Guard<Real>::outside_planes(Vec3<Real> frame) const {
+    bool is_outside = true;
+    for (const Collider& plane : model_->colliders)
+        if (plane.kind == 0) {
+            const Vec3<Real> normal(plane.center);
+            frame -= std::min(glm::dot(normal, frame), Real(0)) * normal;
+        }
+    for (const Collider& plane : model_->colliders)
+        is_outside = is_outside && (plane.kind != 0 || !(glm::dot(Vec3<Real>(plane.center), frame) <
+                                                         Real(-1e-6) * glm::length(frame)));
+    return is_outside ? frame : Vec3<Real>(0);
 }
 
 template <class Real>
@@ -83,17 +93,28 @@ void Guard<Real>::keep_outside_colliders(const Paths<Real>& paths, std::span<Vec
     for (const Collider& collider : model_->colliders) {
         for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
             if (ends[n].w == Real(0)) continue;
-            const SurfaceDistance<Real> from = surface_distance(collider, Vec3<Real>(paths.from[n])),
-                                        to = surface_distance(collider, Vec3<Real>(ends[n]));
-            const auto thickness = static_cast<Real>(surface_->thicknesses[object_of_[n]]);
-            const Real least =
-                std::min({static_cast<Real>(tuning::kLeastOfReach) * thickness,
-                          static_cast<Real>(tuning::kLeastOfGap) * from.distance, from.distance});
-            if (to.distance >= least) continue;
-            const Real frame = glm::dot(from.normal, frames_[object_of_[n]]);
-            add(n, -from.normal, (from.distance - least) + frame);
+            const auto [least, space] = beside_collider(collider, n, paths);
+            if (surface_distance(collider, Vec3<Real>(ends[n])).distance >= least) continue;
+            if (collider.kind == 0) {  // place() knows them all
+                is_changed_[n] = 1;
+                has_changed_ = true;
+            } else {
+                add(n, space.normal, space.room);
+            }
         }
     }
+}
+
+template <class Real>
+typename Guard<Real>::BesideCollider Guard<Real>::beside_collider(const Collider& collider,
+                                                                  std::uint32_t node,
+                                                                  const Paths<Real>& paths) const {
+    const SurfaceDistance<Real> from = surface_distance(collider, Vec3<Real>(paths.from[node]));
+    const auto thickness = static_cast<Real>(surface_->thicknesses[object_of_[node]]);
+    const Real least = std::min({static_cast<Real>(tuning::kLeastOfReach) * thickness,
+                                 static_cast<Real>(tuning::kLeastOfGap) * from.distance, from.distance});
+    const Real frame = glm::dot(from.normal, frames_[object_of_[node]]);
+    return {least, {kNoNode, -from.normal, (from.distance - least) + frame}};
 }
 
 template <class Real>
@@ -202,25 +223,29 @@ void Guard<Real>::clip(const NearPair<Real>& near, const Paths<Real>& paths,
 
 template <class Real>
 void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
+    // All planes, as what keeps a node out of one may push it into another.
+    const auto for_spaces = [&](const auto& use) {
+        for (std::uint32_t h = first_[node]; h != kNoNode; h = half_spaces_[h].next) use(half_spaces_[h]);
+        for (std::size_t c = model_->colliders.size(); c-- > 0;)
+            if (model_->colliders[c].kind == 0) use(beside_collider(model_->colliders[c], node, paths).space);
+    };
     Vec3<Real> d = wanted_[node];
     const Real tiny = Real(1e-6) * glm::length(d);
     for (int k = 0; k < tuning::kProjections; ++k) {
         bool is_outside = false;
-        for (std::uint32_t h = first_[node]; h != kNoNode; h = half_spaces_[h].next) {
-            const HalfSpace& space = half_spaces_[h];
+        for_spaces([&](const HalfSpace& space) {
             const Real over = glm::dot(space.normal, d) - space.room;
-            if (!(over > tiny)) continue;
+            if (!(over > tiny)) return;
             d -= over * space.normal;
             is_outside = true;
-        }
+        });
         if (!is_outside) break;
     }
     Real part = 1;
-    for (std::uint32_t h = first_[node]; h != kNoNode; h = half_spaces_[h].next) {
-        const Real along = glm::dot(half_spaces_[h].normal, d);
-        if (along > half_spaces_[h].room)
-            part = std::min(part, std::max(half_spaces_[h].room, Real(0)) / along);
-    }
+    for_spaces([&](const HalfSpace& space) {
+        const Real along = glm::dot(space.normal, d);
+        if (along > space.room) part = std::min(part, std::max(space.room, Real(0)) / along);
+    });
     if (is_frozen_[node] != 0) part = Real(0);
     const Vec3<Real> end = Vec3<Real>(paths.from[node]) + frames_[object_of_[node]] + part * d;
     ends[node] = Vec4<Real>(end, ends[node].w);

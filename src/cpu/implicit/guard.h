@@ -43,11 +43,18 @@ private:
         Vec3<Real> normal;
         Real room;  // a displacement along the normal is at most this [m]
     };
+    struct BesideCollider {
+        Real least;  // distance where a node may end [m]
+        HalfSpace space;
+    };
 
     void move(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
               std::span<const Real> compliances, std::span<Vec4<Real>> ends);
     void find_frames(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
                      std::span<const Vec4<Real>> ends);
+    Vec3<Real> outside_planes(Vec3<Real> frame) const;
+    BesideCollider beside_collider(const Collider& collider, std::uint32_t node,
+                                   const Paths<Real>& paths) const;
     void keep_outside_colliders(const Paths<Real>& paths, std::span<Vec4<Real>> ends);
     bool is_apart(const NearPair<Real>& near, const Paths<Real>& paths,
                   std::span<const Vec4<Real>> ends) const;
