@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cpu/contact/tuning.h"
-#include "model/contact/held_up.h"
+#include "model/drive/held_up.h"
 #include "model/drive/holding_forces.h"
 
 namespace gelatin::cpu {
@@ -123,7 +123,7 @@ HoldingForces SystemSolver<Real>::holding_forces() {
 
 template <class Real>
 std::vector<std::uint32_t> SystemSolver<Real>::held_up(std::span<const HandlePose> poses) {
-    return find_held_up<Vec4<Real>>(*model_, step_.surface(), current_.positions, poses);
+    return find_held_up<Vec4<Real>>(*model_, step_.surface().thicknesses, current_.positions, poses);
 }
 
 template <class Real>

@@ -10,7 +10,7 @@
 #include "core/archive.h"
 #include "core/log.h"
 #include "gl/context.h"
-#include "model/contact/held_up.h"
+#include "model/drive/held_up.h"
 #include "model/shared_constants.h"
 
 namespace gelatin::gpu {
@@ -115,7 +115,7 @@ std::vector<std::uint32_t> ImplicitSolver::held_up(std::span<const HandlePose> p
     gl::barrier(gl::Barrier::buffer_update);
     std::vector<glm::vec4> positions(current_.positions.size());
     current_.positions.download(positions);
-    return find_held_up<glm::vec4>(*model_, surface_, positions, poses);
+    return find_held_up<glm::vec4>(*model_, surface_.thicknesses, positions, poses);
 }
 
 HoldingForces ImplicitSolver::holding_forces() {

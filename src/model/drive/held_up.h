@@ -6,19 +6,19 @@
 #include <span>
 #include <vector>
 
-#include "model/contact/contact_surface.h"
 #include "model/drive/handles.h"
 #include "model/model.h"
 
 namespace gelatin {
 
 /// The handles with nodes that are farther from where their poses have them than contacts reach, each an
-/// index in Model::handles. @param positions w: inverse mass, shape [nodes] @param poses shape [handles]
+/// index in Model::handles. @param thicknesses of objects [m] @param positions w: inverse mass, shape [nodes]
+/// @param poses shape [handles]
 template <class Position>
-std::vector<std::uint32_t> find_held_up(const Model& model, const ContactSurface& surface,
+std::vector<std::uint32_t> find_held_up(const Model& model, std::span<const double> thicknesses,
                                         std::span<const Position> positions,
                                         std::span<const HandlePose> poses) {
-    const double reach = *std::max_element(surface.thicknesses.begin(), surface.thicknesses.end());
+    const double reach = *std::max_element(thicknesses.begin(), thicknesses.end());
     std::vector<std::uint8_t> are_late(poses.size());
     for (const HandleNode& held : model.handle_nodes) {
         const Position& position = positions[held.node];
