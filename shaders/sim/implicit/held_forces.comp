@@ -23,7 +23,7 @@ void main() {
     if (n >= body_node_count) return;
     vec4 x = texelFetch(positions, int(n));
     vec3 force = vec3(0.0), d = texelFetch(displacements, int(n)).xyz;
-    if (x.w == 0.0 && clock[0].last_step > 0.0) {
+    if (x.w == 0.0) {
         force = elastic_forces[n].xyz - stiffness_times(n, d);
 #ifdef LOADED
         force += load_force(n);

@@ -103,7 +103,6 @@ PairCapacity BodyContacts::needed() const {
 }
 
 void BodyContacts::grow(const PairCapacity& capacity) {
-    gl::barrier(gl::Barrier::buffer_update);
     pairs.grow(capacity);
     system_->grow(capacity_of(*model_, capacity));
     finder.grow();

@@ -24,13 +24,13 @@ void HeldForces::bind_buffers() const {
 }
 
 HoldingForces HeldForces::read(const ModelBuffers& buffers, const SumLoads* loads, double size) const {
+    if (size == 0.0) return find_holding_forces<float>(model_, model_.positions, {}, {});
     if (loads != nullptr) loads->bind(program_);
     buffers.pulls.bind(program_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
     program_.dispatch(model_.body_node_count());
     std::vector<glm::dvec3> others, accelerations;
-    if (gpu::read(state_.clock)[0].last_step > 0.0f)
-        for (const glm::vec4& force : gpu::read(forces_)) others.emplace_back(force);
+    for (const glm::vec4& force : gpu::read(forces_)) others.emplace_back(force);
     const std::vector<glm::vec4> changes = gpu::read(state_.held_changes.values);
     for (const HandleNode& held : model_.handle_nodes)
         accelerations.push_back(glm::dvec3(changes[held.node]) / size);

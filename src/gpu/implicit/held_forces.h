@@ -26,7 +26,7 @@ public:
     /// After StepSystem::grow.
     void bind_buffers() const;
     /// Blocks until the device has ended its tries. @param loads those of the last part; null: there are none
-    /// @param size of the last step [s]
+    /// @param size of the last step; 0: none was made, and nothing is known [s]
     HoldingForces read(const ModelBuffers& buffers, const SumLoads* loads, double size) const;
 
 private:

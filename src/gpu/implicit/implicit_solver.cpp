@@ -10,6 +10,7 @@
 #include "core/archive.h"
 #include "core/log.h"
 #include "gl/context.h"
+#include "model/contact/contact_force_sums.h"
 #include "model/drive/held_up.h"
 #include "model/shared_constants.h"
 
@@ -96,6 +97,7 @@ void ImplicitSolver::write_state(const State& state) {
     GpuSolver::write_state(state);
     goes_on_ = is_next_ = false;
     may_be_lost_ = true;
+    size_ = 0.0;
     if (restore(state.memory)) return;
     end_.forget();
     if (contacts_) contacts_->rows.forget();
@@ -106,15 +108,13 @@ void ImplicitSolver::write_state(const State& state) {
 ContactForces ImplicitSolver::contact_forces() {
     if (!contacts_) return {};
     complete();
-    return contacts_->forces();
+    return size_ > 0.0 ? contacts_->forces() : ContactForceSums(*model_).take();
 }
 
 std::vector<std::uint32_t> ImplicitSolver::held_up(std::span<const HandlePose> poses) {
     if (!contacts_) return {};
     complete();
-    gl::barrier(gl::Barrier::buffer_update);
-    std::vector<glm::vec4> positions(current_.positions.size());
-    current_.positions.download(positions);
+    const std::vector<glm::vec4> positions = read(current_.positions);
     return find_held_up<glm::vec4>(*model_, surface_.thicknesses, positions, poses);
 }
 
@@ -182,13 +182,8 @@ void ImplicitSolver::advance_nodes(const Step& step) {
 // With contacts shapes are put back only if nothing is in the way, which is asked a step after a body seems
 // to be lost: hardly any ever is.
 void ImplicitSolver::match_shapes(double elapsed) {
-    if (!contacts_) {
-        gl::barrier(gl::Barrier::buffer_update);
-        shape_matcher_.run(state_.from, elapsed);
-        return;
-    }
+    if (!contacts_) return shape_matcher_.run(state_.from, elapsed);
     copy_nodes(state_.from, state_.to);
-    gl::barrier(gl::Barrier::storage);
     shape_matcher_.run(state_.to, elapsed);
     if (may_be_lost_) contacts_->follow(buffers_);
     lost_for_.begin(shape_matcher_.lost_for_buffer().id(), model_->objects.size() * sizeof(float));

@@ -64,7 +64,7 @@ private:
     const SumLoads* loads_ = nullptr;
     bool goes_on_ = false;      // with earlier velocities of a state that was written
     bool is_next_ = false;      // state_ has nodes where the last step ended
-    double size_ = 1.0;         // of the last step [s]
+    double size_ = 0.0;         // of the last step; 0: none was made since nodes were set [s]
     std::uint32_t tries_ = 2;   // to launch
     bool has_warned_ = false;   // of contacts without a place
     bool may_be_lost_ = false;  // by the step before: a body has lost its shape

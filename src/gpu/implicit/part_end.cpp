@@ -143,7 +143,6 @@ void PartEnd::make_room() {
 }
 
 void PartEnd::grow() {
-    gl::barrier(gl::Barrier::buffer_update);
     const std::vector<double> meetings = read_pair_meetings();
     make_room();
     pair_meetings_.upload(meetings);
@@ -152,8 +151,7 @@ void PartEnd::grow() {
 
 // Of all that there are, with their number.
 std::vector<double> PartEnd::read_pair_meetings() const {
-    std::vector<double> meetings(pair_meetings_.size());
-    pair_meetings_.download(meetings);
+    std::vector<double> meetings = read(pair_meetings_);
     meetings.resize(1 + static_cast<std::size_t>(meetings[0]) * end_sums::kPairMeeting);
     return meetings;
 }

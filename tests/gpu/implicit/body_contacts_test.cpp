@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "gpu/implicit/implicit_solver.h"
+#include "gpu/support/body_contact_runs.h"
 #include "support/contact_scenes.h"
 #include "support/gl_fixture.h"
 #include "support/overlaps.h"
@@ -16,21 +17,9 @@ namespace {
 
 using test::Block;
 using test::kFrame;
+using test::make_device_solver;
+using test::scattered;
 using SharedModel = std::shared_ptr<const Model>;
-
-struct Settings {
-    double friction = 0.4;
-    int iterations = 10;
-    bool divides_steps = true;
-    std::optional<gpu::PairCapacity> room = {};
-};
-
-gpu::ImplicitSolver make_solver(const SharedModel& model, const Settings& settings = {}) {
-    return gpu::ImplicitSolver(
-        model,
-        {.response = CollisionResponse::contact, .self_collision = true, .friction = settings.friction},
-        {.iterations = settings.iterations, .divides_steps = settings.divides_steps}, settings.room);
-}
 
 // Two blocks on top of each other and a floor.
 SharedModel make_stack() {
@@ -60,12 +49,12 @@ void fuzz(unsigned first, unsigned count, int steps, bool is_short_of_room) {
             ground.position = {0.0, -0.2, 0.0};
         }
         const SharedModel model = test::make_blocks(blocks, {0, -9.81, 0}, {ground});
-        Settings settings;
+        test::DeviceContacts settings;
         const int substeps = random.integer(1, 16);
         settings.iterations = random.integer(1, 60);
         settings.divides_steps = random.integer(0, 1) == 0;
         if (is_short_of_room) settings.room = gpu::PairCapacity{1, 8, 8, 40};
-        gpu::ImplicitSolver solver = make_solver(model, settings);
+        gpu::ImplicitSolver solver = make_device_solver(model, settings);
         const auto energy_of = [&] {
             const State state = solver.read_state();
             return test::sum_bodies<float>(*model, {state.positions, state.velocities});
@@ -104,14 +93,14 @@ State state_after(gpu::ImplicitSolver& solver, int frames) {
 // What had no room is made again when it has.
 TEST_F(BodyContactsTest, RoomDoesNotMatter) {
     const SharedModel model = make_stack();
-    gpu::ImplicitSolver narrow = make_solver(model, {.room = gpu::PairCapacity{1, 8, 8, 10}}),
-                        wide = make_solver(model);
+    gpu::ImplicitSolver narrow = make_device_solver(model, {.room = gpu::PairCapacity{1, 8, 8, 10}}),
+                        wide = make_device_solver(model);
     EXPECT_EQ(state_after(narrow, 8).positions, state_after(wide, 8).positions);
 }
 
 TEST_F(BodyContactsTest, RepeatsBitForBitAndStartsAgain) {
     const SharedModel model = make_stack();
-    gpu::ImplicitSolver solver = make_solver(model), again = make_solver(model);
+    gpu::ImplicitSolver solver = make_device_solver(model), again = make_device_solver(model);
     const State start = solver.read_state(), end = state_after(solver, 10);
     EXPECT_EQ(state_after(again, 10).positions, end.positions);
     again.write_state(start);
@@ -120,11 +109,12 @@ TEST_F(BodyContactsTest, RepeatsBitForBitAndStartsAgain) {
 
 TEST_F(BodyContactsTest, GoOnFromACheckpoint) {
     const SharedModel model = make_stack();
-    gpu::ImplicitSolver solver = make_solver(model);
+    gpu::ImplicitSolver solver = make_device_solver(model);
     State state = state_after(solver, 10);
     state.memory = solver.memory();
-    gpu::ImplicitSolver other = make_solver(model, {.room = gpu::PairCapacity{1, 8, 8, 10}});
+    gpu::ImplicitSolver other = make_device_solver(model, {.room = gpu::PairCapacity{1, 8, 8, 10}});
     other.write_state(state);
+    EXPECT_TRUE(other.contact_forces().between.empty());  // until a step finds them
     const State end = state_after(solver, 5);
     EXPECT_EQ(state_after(other, 5).positions, end.positions);
     State without = state;
@@ -135,7 +125,7 @@ TEST_F(BodyContactsTest, GoOnFromACheckpoint) {
 
 TEST_F(BodyContactsTest, ForcesAreWeights) {
     const SharedModel model = make_stack();
-    gpu::ImplicitSolver solver = make_solver(model);
+    gpu::ImplicitSolver solver = make_device_solver(model);
     state_after(solver, 100);
     const double weight = 9.81 * (model->objects[0].mass + model->objects[1].mass);
     const ContactForces forces = solver.contact_forces();
@@ -150,16 +140,6 @@ TEST_F(BodyContactsTest, ForcesAreWeights) {
     EXPECT_NEAR(on_nodes.y, weight, 0.02 * weight);
 }
 
-// Nodes of the first body are anywhere in a tenth of its extent.
-State scattered(const Model& model) {
-    State state{model.positions, model.velocities, model.velocities, {}};
-    test::RandomMaker random(3);
-    for (std::uint32_t n = 0; n < model.objects[0].nodes.count; ++n)
-        state.positions[n] =
-            glm::vec4(glm::vec3(glm::dvec3(0.15) + random.point(0.015)), state.positions[n].w);
-    return state;
-}
-
 // Of the first body [m].
 float extent_of(const Model& model, std::span<const glm::vec4> positions) {
     float most = 0.0f;
@@ -170,7 +150,7 @@ float extent_of(const Model& model, std::span<const glm::vec4> positions) {
 
 TEST_F(BodyContactsTest, ShapesArePutBack) {
     const SharedModel model = test::make_blocks({{.youngs_modulus = 3e4}, {.place = {1, 0, 0}}});
-    gpu::ImplicitSolver solver = make_solver(model);
+    gpu::ImplicitSolver solver = make_device_solver(model);
     auto reference = test::make_solver<float>(model);
     solver.write_state(scattered(*model));
     reference.write_state(scattered(*model));
@@ -186,7 +166,7 @@ TEST_F(BodyContactsTest, ShapesArePutBack) {
 
 TEST_F(BodyContactsTest, ShapesAreNotPutBackThroughOthers) {
     const SharedModel model = test::make_blocks({{.youngs_modulus = 3e4}, {.place = {0.05, 0.18, 0.05}}});
-    gpu::ImplicitSolver solver = make_solver(model);
+    gpu::ImplicitSolver solver = make_device_solver(model);
     solver.write_state(scattered(*model));
     ASSERT_LT(extent_of(*model, state_after(solver, 1).positions),
               0.7f * extent_of(*model, model->positions));

@@ -15,6 +15,7 @@
 #include "cpu/implicit/step_system.h"
 #include "gpu/implicit/elastic_system.h"
 #include "gpu/implicit/step_system.h"
+#include "gpu/support/body_contact_runs.h"
 #include "gpu/support/pair_guard_scenarios.h"
 #include "gpu/support/pair_rows_scenarios.h"
 #include "gpu/support/pair_scenarios.h"
@@ -498,6 +499,7 @@ void run_implicit_programs() {
     run_find_pairs();
     run_pair_rows();
     run_pair_guard();
+    run_body_contacts();
 }
 
 }  // namespace gelatin::test

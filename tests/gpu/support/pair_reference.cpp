@@ -25,7 +25,7 @@ using Pairs = std::map<Key, cpu::NearPair<double>>;
 
 constexpr double kBand = 2e-6;  // [m]; what rounding makes of a few meters
 
-Key key_of(const NearPair& pair) {
+Key pair_key(const NearPair& pair) {
     return {pair.is_edges != 0, pair.first, pair.second};
 }
 
@@ -237,10 +237,10 @@ void compare_pairs(const FoundPairs& found, const PairReference& reference, Pair
     const Pairs certain = reference.find(-kBand), possible = reference.find(kBand);
     Pairs actual;
     for (const NearPair& pair : found.listed()) {
-        const auto at = possible.find(key_of(pair));
+        const auto at = possible.find(pair_key(pair));
         errors.require(at != possible.end());
         if (at == possible.end()) return;
-        errors.require(actual.emplace(key_of(pair), at->second).second);
+        errors.require(actual.emplace(pair_key(pair), at->second).second);
         compare_pair(pair, at->second, reference, errors);
     }
     for (const auto& [key, near] : certain) errors.require(actual.contains(key));
