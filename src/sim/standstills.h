@@ -24,9 +24,8 @@ public:
     /// @param solver whose last step ended at `time` [s]
     /// @param held_up what Solver::held_up finds then @param delays of handles [s], shape [handles]
     /// @return a line for each that is to be reported
-    std::vector<std::string> look(const Model& model, Solver& solver,
-                                  std::span<const std::uint32_t> held_up, std::span<const double> delays,
-                                  double time);
+    std::vector<std::string> look(const Model& model, Solver& solver, std::span<const std::uint32_t> held_up,
+                                  std::span<const double> delays, double time);
 
     /// All are reported again.
     void restart() {

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "model/contact/contact_force_sums.h"
 #include "cpu/contact/tuning.h"
+#include "model/contact/contact_force_sums.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
