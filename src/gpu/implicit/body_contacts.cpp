@@ -61,8 +61,8 @@ BodyContacts::BodyContacts(const Model& model, const ContactSurface& surface, St
     }
 }
 
-void BodyContacts::find(const ModelBuffers& model) const {
-    finder.run(model);
+void BodyContacts::find(const ModelBuffers& model, bool own) const {
+    finder.run(model, own);
     rows.find_guard_islands(guard_.islands.values);
 }
 
@@ -79,8 +79,7 @@ void BodyContacts::guard(const ModelBuffers& model) const {
 void BodyContacts::follow(const ModelBuffers& model) const {
     begin_follow_.dispatch(model_->node_count());
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
-    finder.run(model, false);
-    rows.find_guard_islands(guard_.islands.values);
+    find(model, false);
     guard_.run(model);
     guard_.decide();
     guard_.close();

@@ -34,8 +34,8 @@ public:
     static RowCapacity capacity_of(const Model& model, const PairCapacity& room);
 
     /// Pairs that may come near each other where nodes go by state.predicted. Ends with the barrier for
-    /// PartStart::find_rows.
-    void find(const ModelBuffers& model) const;
+    /// PartStart::find_rows. @param own whether bodies that may meet themselves are searched for it
+    void find(const ModelBuffers& model, bool own = true) const;
     /// What contacts hold, after the solve.
     void note() const { rows.note(); }
     /// Nodes of state.to, as PartEnd::finish wants them, go as far as nothing crosses. Ends with the barrier

@@ -1,5 +1,4 @@
-// What pins and handles exert on the device beside what they do on the CPU: with loads, hands, contacts, and
-// handles that speed up.
+// What pins and handles exert on the device beside what they do on the CPU: with hands and contacts.
 #include "gpu/implicit/held_forces.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +25,6 @@ std::shared_ptr<const Model> held_block(MaterialModel material) {
         {0, -9.81, 0});
 }
 
-// Pins speed up in the first steps.
 template <class SolverType>
 HoldingForces forces_of(const std::shared_ptr<const Model>& model, CollisionResponse response) {
     SolverType solver(model, {.response = response}, {.divides_steps = true});
