@@ -148,21 +148,21 @@ private:
 class GlSystem {
 public:
     explicit GlSystem(const Model& model)
-        : buffers_(model), nodes_(model.positions, model.velocities), system_(model) {
+        : buffers_(model), nodes_(model.positions, model.velocities), system_(model, tries_) {
         StepClock clock{};
         clock.step = 1.0f / kInversePart;
         clock.goes_on = 1;
-        clock_ = gl::Buffer<StepClock>(std::vector{clock});
+        tries_.set_clock(clock);
         std::vector<float> times;
         for (const glm::vec4& velocity : model.velocities) times.push_back(velocity.w);
         damping_times_ = {times, gl::TexelFormat::r32f};
         system_.loads().upload(loads_of(model));
         system_.displacements().upload(std::vector<glm::vec4>(model.node_count(), glm::vec4(0.0f)));
         system_.enough().upload(std::vector<float>(model.objects.size(), 0.0f));
-        system_.iterations = kSolveIterations / 2;
+        system_.set_iterations(kSolveIterations / 2);
         linearise();
     }
-    void linearise() { system_.elastic.linearise(buffers_, nodes_, damping_times_.texels(), clock_); }
+    void linearise() { system_.elastic.linearise(buffers_, nodes_, damping_times_.texels(), tries_); }
     void solve() {
         system_.begin_bodies(nodes_);
         system_.solve(nodes_);
@@ -172,7 +172,7 @@ private:
     gpu::ModelBuffers buffers_;
     gpu::NodeBuffers nodes_;
     gl::TexelTable<float> damping_times_;
-    gl::Buffer<StepClock> clock_;
+    gpu::Tries tries_;
     gpu::StepSystem system_;
 };
 

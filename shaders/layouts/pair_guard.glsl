@@ -1,14 +1,10 @@
 // Compiled twice: as GLSL (std430) and as C++ (src/model/layouts.h).
 // What the guard of pairs finds.
-struct GuardState {      // 32 bytes
+struct GuardState {      // 16 bytes
     uint  is_changed;    // 1: in this part it has moved nodes
     uint  needs_again;   // 1: nodes end beside their paths, or something is blocked: pairs are found anew, and it runs again
     uint  clipped;       // pairs of this run
     uint  is_given_up;   // 1: it has found no way, and all nodes stay where they were
-    uint  is_done;       // 1: the other passes of this try do nothing
-    uint  unused_0;
-    uint  unused_1;
-    uint  unused_2;
 };
 // What it knows of a node.
 struct NodeClips {       // 8 bytes

@@ -70,8 +70,10 @@ public:
     const ObjectName& name() const { return raw_.name(); }
     unsigned id() const { return raw_.id(); }
 
-    /// To the first elements. @pre data.size() <= size()
-    void upload(std::span<const T> data) { raw_.upload(0, data.size_bytes(), data.data()); }
+    /// To the elements from `first` on. @pre first + data.size() <= size()
+    void upload(std::span<const T> data, std::size_t first = 0) {
+        raw_.upload(first * sizeof(T), data.size_bytes(), data.data());
+    }
 
     /// Copies the contents to `out`; blocks until the GPU has finished.
     /// @pre out.size() == size(), and barrier(buffer_update) since the last dispatch

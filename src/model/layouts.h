@@ -66,7 +66,7 @@ static_assert(sizeof(Face) == 16);
 static_assert(sizeof(FaceEdge) == 16);
 static_assert(sizeof(FacePair) == 16);
 static_assert(sizeof(FitSums) == 48);
-static_assert(sizeof(GuardState) == 32);
+static_assert(sizeof(GuardState) == 16);
 static_assert(sizeof(HalfSpringPair) == 16);
 static_assert(sizeof(HandleMotion) == 128);
 static_assert(sizeof(HandleNode) == 32);

@@ -43,4 +43,9 @@ namespace thresholds {
 #include "layouts/thresholds.glsl"
 }  // namespace thresholds
 
+/// Arguments of the indirect dispatches of a try to make a part of a step.
+namespace try_dispatches {
+#include "layouts/tries.glsl"
+}  // namespace try_dispatches
+
 }  // namespace gelatin

@@ -201,8 +201,7 @@ TEST_F(LayoutsTest, PairRows) {
 TEST_F(LayoutsTest, PairGuard) {
     check("pair_guard.glsl", "GuardState", sizeof(GuardState),
           {FIELD(GuardState, is_changed), FIELD(GuardState, needs_again), FIELD(GuardState, clipped),
-           FIELD(GuardState, is_given_up), FIELD(GuardState, is_done), FIELD(GuardState, unused_0),
-           FIELD(GuardState, unused_1), FIELD(GuardState, unused_2)});
+           FIELD(GuardState, is_given_up)});
     check("pair_guard.glsl", "NodeClips", sizeof(NodeClips),
           {FIELD(NodeClips, rounds), FIELD(NodeClips, first)});
 }

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <span>
 
 #include "gpu/support/collision_scenarios.h"
 #include "gpu/support/implicit_scenarios.h"
@@ -93,6 +94,18 @@ TEST(BrokenShaderTest, RefusesTextThatDoesNotStandThereOnce) {
     };
     EXPECT_THROW(text_with("four"), std::runtime_error);
     EXPECT_THROW(text_with("two"), std::runtime_error);
+}
+
+// Those that only long tests try do not go out of date unseen.
+TEST(BrokenShaderTest, FindsTheTextOfAllLongMutants) {
+    for (const std::span<const Mutant> mutants : {std::span<const Mutant>(kStepRowMutants),
+                                                  {kSmallIslandRowMutants},
+                                                  {kPartStartMutants},
+                                                  {kFindPairsMutants},
+                                                  {kPairRowMutants},
+                                                  {kPairGuardMutants},
+                                                  {kPartEndMutants}})
+        for (const Mutant& mutant : mutants) EXPECT_NO_THROW(BrokenShader{mutant}) << mutant.name;
 }
 
 }  // namespace

@@ -1,21 +1,14 @@
 // What the GPU has counted, as arguments of indirect dispatches (src/gpu/collision/collision_buffers.h).
-#include "layouts/dispatch.glsl"
 #include "layouts/dispatch_slots.glsl"
 #include "layouts/packing.glsl"
 #include "sim/collision/bounds.glsl"
+#include "sim/collision/make_dispatch.glsl"
 
 #ifdef WRITES_DISPATCHES
 layout(std430) buffer Dispatches { Dispatch dispatches[]; };
 #else
 layout(std430) readonly buffer Dispatches { Dispatch dispatches[]; };
 #endif
-
-// Work groups of 64 for `count` invocations, folded into two dimensions where one is not enough.
-Dispatch make_dispatch(uint count, uint groups) {
-    uint rows = (groups + 65534u) / 65535u;
-    return Dispatch(rows > 0u ? (groups + rows - 1u) / rows : 0u, max(rows, 1u), 1u, count);
-}
-Dispatch dispatch_invocations(uint count) { return make_dispatch(count, count / 64u + uint(count % 64u != 0u)); }
 
 #ifdef WRITES_DISPATCHES
 // Allocates one more element in a list that a dispatch will process. Returns its index, or kNone if the list is full, which

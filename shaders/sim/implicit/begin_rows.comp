@@ -1,14 +1,14 @@
 // Rows where a solve begins, a work group an island: how their sides move relative to each other by the displacements, what friction
 // holds with at most, and where they are on their bodies as rigid ones. Of small islands what all but rows exerts on bodies, too.
 // CPU twin: gelatin::cpu::RigidSolve. Parity: tests/gpu/implicit/step_system_test.cpp.
-const uint kLanes = 256u;
+#include "sim/implicit/island_lanes.glsl"
 #include "sim/implicit/row_list.glsl"
 #include "sim/implicit/rows.glsl"
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/base_sums.glsl"
 #include "sim/implicit/group_residuals.glsl"
 #include "sim/implicit/row_arms.glsl"
-layout(local_size_x = 256) in;
+layout(local_size_x = LANES) in;
 
 uniform samplerBuffer displacements;  // d, xyz [m]
 layout(std430) writeonly buffer Slips { vec4 slips[]; };  // s [m]; w: limit of friction [N]

@@ -1,9 +1,8 @@
-// Where a try of a part begins, if the step is not over: its length. One invocation.
+// Where a try of a part begins, if the step is not over: its length, and what is launched. One work group.
 // CPU twin: gelatin::cpu::SystemSolver, gelatin::cpu::ImplicitStep::run. Parity: tests/gpu/implicit/part_start_test.cpp.
 #include "sim/implicit/part_length.glsl"
-layout(local_size_x = 1) in;
-
-layout(std430) buffer Clock { StepClock clock[]; };
+#include "sim/implicit/tries.glsl"
+layout(local_size_x = 64) in;
 
 void main() {
     StepClock now = clock[0];
@@ -14,5 +13,7 @@ void main() {
         now.begun = now.made + 1u;
         now.step = shortened(now, now.parts);
     }
-    clock[0] = now;
+    memoryBarrierBuffer();
+    barrier();  // all have read it
+    set_clock(now);
 }

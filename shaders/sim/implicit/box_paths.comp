@@ -17,7 +17,7 @@ uniform uint node_count;
 
 void main() {
     uint index = global_index();
-    if (index >= node_count || !goes_on()) return;
+    if (index >= node_count || clock[0].goes_on == 0u) return;
     uint n = level_nodes[first_node + index];
     uvec4 node = texelFetch(tree_nodes, int(n));  // skip, first face, number of faces
     Bounds box = Bounds(vec3(3.4e38), vec3(-3.4e38));

@@ -14,7 +14,7 @@ layout(std430) writeonly buffer EntriesOfChunks { uint chunk_entries[]; };
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x, sum = 0u, all;
-    if (c >= chunk_count || !makes_rows(clock[0])) return;
+    if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += kLanes) {
         uint count = entry_counts[n];

@@ -21,7 +21,7 @@ float find_slack(uint object, float thickness) {
 
 void main() {
     uint chunk_number = group_index(), lane = gl_LocalInvocationID.x;
-    if (chunk_number >= chunk_count || !makes_part()) return;
+    if (chunk_number >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(chunk_number));
     if (chunk.x >= body_count) return;
     float thickness = texelFetch(thicknesses, int(chunk.x)).x, slack = find_slack(chunk.x, thickness);

@@ -2,7 +2,6 @@
 // Host: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 const uint kLanes = 64u;
 #include "include/global_index.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/near_pairs.glsl"
 layout(local_size_x = 64) in;
@@ -22,7 +21,7 @@ uint pair_of(uint place) { return texelFetch(row_places, int(place)).w; }
 
 void main() {
     uint o = group_index(), all;
-    if (o >= body_count || !makes_rows(clock[0])) return;
+    if (o >= body_count) return;
     uint next = texelFetch(coupling_starts, int(o)).x, end = texelFetch(slot_starts, int(o) + 1).x;
     for (uint base = texelFetch(slot_starts, int(o)).x; base < end; base += kLanes) {
         uint s = base + gl_LocalInvocationID.x, count = 0u, twin = kNone, twin_count = 0u;

@@ -3,7 +3,6 @@
 #include "include/global_index.glsl"
 #include "layouts/near_pair.glsl"
 #include "sim/collision/dispatches.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/list_starts.glsl"
 layout(local_size_x = 64) in;
 
@@ -22,7 +21,7 @@ uint first_pair(uint slot) {
 
 void main() {
     uint s = global_index();
-    if (s >= dispatches[kSlotEnds].count || !goes_on()) return;
+    if (s >= dispatches[kSlotEnds].count) return;
     slots[s].first_pair = first_pair(s);
     slots[s].pair_end = first_pair(s + 1u);
 }

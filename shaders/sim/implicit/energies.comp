@@ -108,12 +108,10 @@ bool has_to(uint object) {
     uint end = texelFetch(chunk_starts, int(object) + 1).x;
     for (uint c = texelFetch(chunk_starts, int(object)).x; c < end; ++c)
         any = any || guard_sums[c * kGuardSums + kHeldBack] > 0.0LF;
-    return any && goes_on();
+    return any;
 }
 #elif defined(STOP)
-bool has_to(uint object) { return changes[object].action == 3u && goes_on(); }
-#elif defined(KEEP)
-bool has_to(uint object) { return goes_on(); }
+bool has_to(uint object) { return changes[object].action == 3u; }
 #else
 bool has_to(uint object) { return true; }
 #endif

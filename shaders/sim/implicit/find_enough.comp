@@ -20,7 +20,7 @@ float mass_of(uint body) { return texelFetch(paces, 5 * int(body) + 2).w; }
 
 void main() {
     uint o = group_index(), lane = gl_LocalInvocationID.x;
-    if (o >= body_count || !makes_part()) return;
+    if (o >= body_count) return;
     vec4 sums = vec4(0.0);  // its energy, that of its island, the island's mass
     uint end = texelFetch(chunk_starts, int(o) + 1).x;
     for (uint c = texelFetch(chunk_starts, int(o)).x + lane; c < end; c += kLanes) sums.x += energies[c];

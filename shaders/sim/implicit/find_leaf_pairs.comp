@@ -2,7 +2,6 @@
 // CPU twin: gelatin::cpu::FindPairs::walk. Parity: tests/gpu/implicit/find_pairs_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/collision/dispatches.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/list_starts.glsl"
 #include "sim/implicit/own_pairs.glsl"
 layout(local_size_x = 64) in;
@@ -20,7 +19,7 @@ layout(std430) writeonly buffer Starts { uint starts[]; };  // counts
 
 void main() {
     uint k = global_index();
-    if (k >= dispatches[2u * kOfSearches].count || !goes_on()) return;
+    if (k >= dispatches[2u * kOfSearches].count) return;
     uvec2 search = texelFetch(searches, int(k)).xy;
     uvec2 slot = texelFetch(pair_slots, int(search.y)).xy;
     Bounds box = swept(tree_bounds(search.x), motion_of(slot.x) - motion_of(slot.y));

@@ -4,7 +4,6 @@
 #include "include/global_index.glsl"
 #include "layouts/contact_tuning.glsl"
 #include "layouts/near_pair.glsl"
-#include "sim/implicit/clock.glsl"
 layout(local_size_x = 64) in;
 
 uniform usamplerBuffer convex_tets;    // their corners
@@ -58,14 +57,13 @@ bool add_to_box(uint body, vec3 x) {
 
 void main() {
     uint t = global_index();
-    if (t >= tet_count || !goes_on()) return;
+    if (t >= tet_count) return;
     uvec4 tet = texelFetch(convex_tets, int(t));
     uint body = texelFetch(tet_bodies, int(t)).x;
     mat3 inverse_ = fetch_matrix(tet_inverses, t), rotation = fetch_matrix(rotations, body);
 #ifdef ENDS
     if (keeps(ends, tet, inverse_, rotation)) return;
 #else
-    if (clock[0].guards != 0u) return;
     if (keeps(positions, tet, inverse_, rotation) && keeps(path_ends, tet, inverse_, rotation)) return;
 #endif
     bool grew = false;

@@ -10,11 +10,14 @@ layout(local_size_x = 256) in;
 
 uniform samplerBuffer positions;      // xyz [m]; w: inverse mass, 0: held
 uniform samplerBuffer predicted;      // displacements [m]
+uniform samplerBuffer velocities;     // xyz [m/s]
+uniform samplerBuffer paces;          // BodyPace, five texels each
 uniform samplerBuffer thicknesses;    // by object [m]
 uniform usamplerBuffer object_nodes;  // by object: first, end
 uniform uint object_count;
 uniform uint body_count;
 uniform uint finds_own;  // 1: bodies meet themselves
+uniform uint follows;    // 1: nodes go as predicted
 layout(std430) buffer PathEnds { vec4 path_ends[]; };
 layout(std430) writeonly buffer Slacks { float slacks[]; };
 layout(std430) writeonly buffer Motions { vec4 motions[]; };
@@ -22,9 +25,13 @@ layout(std430) writeonly buffer Speeds { float speeds[]; };  // by object [reach
 
 void main() {
     uint o = group_index(), lane = gl_LocalInvocationID.x;
-    if (o >= object_count || !goes_on()) return;
+    if (o >= object_count) return;
     uvec2 nodes = texelFetch(object_nodes, int(o)).xy;
-    bool is_new = clock[0].guards == 0u;
+    bool is_new = clock[0].guards == 0u, goes_on = o < body_count && clock[0].last_step > 0.0 && follows == 0u;
+    // What pressed a body goes on to do so.
+    float step = clock[0].step;
+    vec3 acceleration = vec3(0.0);
+    if (goes_on) acceleration = texelFetch(paces, 5 * int(o) + 3).xyz / texelFetch(paces, 5 * int(o) + 2).w;
     float longest = 0.0, thickness = texelFetch(thicknesses, int(o)).x;
     vec3 sum = vec3(0.0);
     for (uint n = nodes.x + lane; n < nodes.y; n += kLanes) {
@@ -32,6 +39,7 @@ void main() {
         if (is_new) {
             vec3 d = texelFetch(predicted, int(n)).xyz;
             longest = max(longest, length(d));
+            if (goes_on && x.w > 0.0) d = step * (texelFetch(velocities, int(n)).xyz + step * acceleration);
             path_ends[n] = vec4(x.xyz + d, x.w);
         }
         sum += path_ends[n].xyz - x.xyz;

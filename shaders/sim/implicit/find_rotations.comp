@@ -3,7 +3,6 @@
 // CPU twin: gelatin::cpu::KeptDistances. Parity: tests/gpu/implicit/find_pairs_test.cpp.
 const uint kLanes = 256u;
 #include "include/global_index.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/group_sums.glsl"
 #include "sim/recovery/nearest_rotation.glsl"
 layout(local_size_x = 256) in;
@@ -18,7 +17,7 @@ layout(std430) writeonly buffer LostBoxes { uvec4 lost_boxes[]; };  // by object
 
 void main() {
     uint o = group_index(), lane = gl_LocalInvocationID.x;
-    if (o >= body_count || !goes_on() || clock[0].guards != 0u || texelFetch(convex_bodies, int(o)).x == 0u) return;
+    if (o >= body_count || texelFetch(convex_bodies, int(o)).x == 0u) return;
     uvec2 nodes = texelFetch(object_nodes, int(o)).xy;
     vec3 first = texelFetch(rest_positions, int(nodes.x)).xyz, first_end = texelFetch(path_ends, int(nodes.x)).xyz;
     vec4 x = vec4(0.0), y = x, z = x, ends = x;  // columns of the moment; w: sums at the start

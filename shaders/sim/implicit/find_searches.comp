@@ -4,7 +4,6 @@
 const uint kLanes = 256u;
 #include "include/global_index.glsl"
 #include "sim/collision/dispatches.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/list_starts.glsl"
 #include "sim/implicit/path_trees.glsl"
@@ -32,7 +31,7 @@ bool is_near(uint leaf, Bounds bounds, vec3 motion, Bounds other, vec3 beside) {
 
 void main() {
     uint s = group_index(), lane = gl_LocalInvocationID.x;
-    if (s >= dispatches[2u * kOfSlots].count || !goes_on()) return;
+    if (s >= dispatches[2u * kOfSlots].count) return;
     uvec2 slot = texelFetch(pair_slots, int(s)).xy;
     uint first = texelFetch(leaf_starts, int(slot.x)).x, end = texelFetch(leaf_starts, int(slot.x) + 1).x, count = 0u;
     Bounds bounds = bounds_of(slot.y), other = tree_bounds(root_of(slot.y));

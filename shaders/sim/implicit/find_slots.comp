@@ -4,7 +4,6 @@
 const uint kLanes = 64u;
 #include "include/global_index.glsl"
 #include "layouts/near_pair.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/group_sums.glsl"
 #include "sim/implicit/own_pairs.glsl"
@@ -25,7 +24,7 @@ bool is_body(uint object) { return object < body_count; }
 
 void main() {
     uint o = group_index(), lane = gl_LocalInvocationID.x;
-    if (o >= object_count || !goes_on()) return;
+    if (o >= object_count) return;
 #ifdef LIST
     if (counts[0].is_full != 0u) return;
     uint place = slot_starts[o];

@@ -33,7 +33,7 @@ vec4 pulled(uint n, vec4 wanted, vec3 x) {
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || !makes_part()) return;
+    if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     Scheme scheme = scheme_of(clock[0].step, 0.0);
     vec3 motion = vec3(0.0);  // of the body as a whole [m/s]

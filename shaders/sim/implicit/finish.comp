@@ -80,7 +80,7 @@ vec3 force_on(uint n, vec3 x, vec3 d) {
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || !goes_on()) return;
+    if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     bool is_free = texelFetch(bodies, 5 * int(chunk.x)).w > 0.0;
     vec3 center = center_of(chunk.x);

@@ -21,7 +21,7 @@ vec3 rotation_of(uint object) {
 
 void main() {
     uint c = group_index();
-    if (c >= chunk_count || !makes_part()) return;
+    if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     bool is_free = texelFetch(bodies, 5 * int(chunk.x)).w > 0.0;
     vec3 center = center_of(chunk.x), w = rotation_of(chunk.x);  // 0 of what is held

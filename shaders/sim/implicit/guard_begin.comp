@@ -2,6 +2,7 @@
 // CPU twin: gelatin::cpu::Guard::find_frames. Parity: tests/gpu/implicit/pair_guard_test.cpp.
 const uint kSums = 5u;
 #define WRITES_DISPATCHES
+#include "layouts/tries.glsl"
 #include "sim/collision/dispatches.glsl"
 #include "sim/implicit/guarded_pairs.glsl"
 #include "sim/implicit/lane_sums.glsl"
@@ -24,18 +25,18 @@ Dispatch waiting(uint invocations) {
 }
 
 void begin() {
-    guard[0] = GuardState(clock[0].guards == 0u ? 0u : guard[0].is_changed, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    guard[0] = GuardState(clock[0].guards == 0u ? 0u : guard[0].is_changed, 0u, 0u, 0u);
     Dispatch pairs = waiting(min(counts[0].pairs, pair_capacity)), nodes = waiting(node_count);
     for (uint r = 0u; r <= kGuardRounds; ++r) {
-        dispatches[2u * r] = pairs;
-        dispatches[2u * r + 1u] = nodes;
+        dispatches[kGuardRound + 2u * r] = pairs;
+        dispatches[kGuardRound + 2u * r + 1u] = nodes;  // the last ones are kGuardStays
     }
-    dispatches[0].groups_x = pairs.count;
+    dispatches[kGuardRound].groups_x = pairs.count;
 }
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || !goes_on()) return;
+    if (c >= chunk_count) return;
     if (c == 0u && lane == 0u) begin();
     uvec4 chunk = texelFetch(chunks, int(c));
     double sums[kSums] = double[](0.0LF, 0.0LF, 0.0LF, 0.0LF, 0.0LF);

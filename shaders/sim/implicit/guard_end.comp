@@ -12,7 +12,7 @@ layout(std430) writeonly buffer Guard { GuardState guard[]; };
 
 void main() {
     uint n = global_index();
-    if (n >= node_count || !goes_on()) return;
+    if (n >= node_count) return;
     uint object = object_of(n), marks = object_marks[island_of(object)];
     vec4 end = end_positions[n];
     if ((marks & (kHasBlocked | kHasFailed)) != 0u) {

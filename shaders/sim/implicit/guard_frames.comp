@@ -15,7 +15,7 @@ layout(std430) writeonly buffer Marks { uint object_marks[]; };     // kIsBlocke
 
 void main() {
     uint o = group_index(), lane = gl_LocalInvocationID.x;
-    if (o >= object_count || !goes_on()) return;
+    if (o >= object_count) return;
     double sums[kSums] = double[](0.0LF, 0.0LF, 0.0LF, 0.0LF, 0.0LF);
     for (uint c = lane; c < chunk_count; c += 64u) {
         if (island_of(texelFetch(chunks, int(c)).x) != island_of(o)) continue;

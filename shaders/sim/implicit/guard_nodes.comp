@@ -36,7 +36,7 @@ uint sort_clips(uint first) {
 
 void main() {
     uint n = global_index();
-    if (n >= node_count || !goes_on() || is_held(n)) return;
+    if (n >= node_count || is_held(n)) return;
     NodeClips own = node_clips[n];
     if (round_ > 0u && (own.rounds >> round_ & 1u) == 0u) return;
     uint object = object_of(n);

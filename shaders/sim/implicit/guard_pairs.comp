@@ -3,6 +3,7 @@
 // all of its island goes with the frame.
 // CPU twin: gelatin::cpu::Guard. Parity: tests/gpu/implicit/pair_guard_test.cpp.
 #define WRITES_DISPATCHES
+#include "layouts/tries.glsl"
 #include "sim/collision/dispatches.glsl"
 #include "sim/collision/nearest_points.glsl"
 #include "sim/implicit/guarded_pairs.glsl"
@@ -141,9 +142,10 @@ void clip(uint p, GuardedPair pair, mat4x3 from) {
 
 // What moves nodes: then they are placed, and pairs of theirs checked again.
 void do_again() {
-    atomicMax(dispatches[2u * round_ + 1u].groups_x, dispatches[2u * round_ + 1u].count);
-    atomicMax(dispatches[2u * round_ + 2u].groups_x, dispatches[2u * round_ + 2u].count);
-    atomicMax(dispatches[2u * kGuardRounds].groups_x, dispatches[2u * kGuardRounds].count);
+    uint next = kGuardRound + 2u * round_, last = kGuardRound + 2u * kGuardRounds;
+    atomicMax(dispatches[next + 1u].groups_x, dispatches[next + 1u].count);
+    atomicMax(dispatches[next + 2u].groups_x, dispatches[next + 2u].count);
+    atomicMax(dispatches[last].groups_x, dispatches[last].count);
 }
 
 // A pair that still fails. What is held and goes on, though free nodes have given way as far as they can, is blocked.
@@ -162,7 +164,7 @@ void give_up(GuardedPair pair, bool is_clipped) {
 
 void main() {
     uint p = global_index();
-    if (p >= min(counts[0].pairs, pair_capacity) || !goes_on()) return;
+    if (p >= min(counts[0].pairs, pair_capacity)) return;
     GuardedPair pair = fetch_pair(p);
     bool is_last = round_ == kGuardRounds, is_clipped = round_ > 0u && clip_links[4u * p] != kNotClipped;
     if (round_ == 0u) clip_links[4u * p] = kNotClipped;

@@ -31,7 +31,7 @@ vec3 frame_of(uint object) {
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || !goes_on()) return;
+    if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     vec3 center = center_of(chunk.x), frame = frame_of(chunk.x);
     float thickness = texelFetch(thicknesses, int(chunk.x)).x;

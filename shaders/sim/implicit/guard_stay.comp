@@ -7,5 +7,5 @@ layout(std430) writeonly buffer EndPositions { vec4 end_positions[]; };
 
 void main() {
     uint n = global_index();
-    if (n < node_count && goes_on()) end_positions[n] = texelFetch(positions, int(n));
+    if (n < node_count) end_positions[n] = texelFetch(positions, int(n));
 }

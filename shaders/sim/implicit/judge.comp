@@ -4,16 +4,19 @@
 const uint kLanes = 128u;
 #include "layouts/step_end.glsl"
 #include "layouts/step_state.glsl"
+#ifndef GUARDED
+#include "sim/implicit/tries.glsl"
+#endif
 #include "sim/implicit/most_gained.glsl"
 #include "sim/implicit/object_sums.glsl"
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/island_bodies.glsl"
 layout(local_size_x = 128) in;
 
-layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) buffer Paces { BodyPace paces[]; };
 
 #ifdef GUARDED
+layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) readonly buffer GuardSums { double guard_sums[]; };  // by chunk
 layout(std430) writeonly buffer BodyChanges { BodyChange changes[]; };
 
@@ -63,8 +66,6 @@ uint pace_of(uint o, float mass) {
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    StepClock now = clock[0];
-    if (now.goes_on == 0u) return;
 #ifdef GUARDED
     float is_guarded = 0.0;
     for (uint o = lane; o < body_count; o += kLanes) is_guarded = max(is_guarded, guard_sum(o, kHeldBack) > 0.0LF ? 1.0 : 0.0);
@@ -81,11 +82,15 @@ void main() {
     if (lane == 0u) clock[0].is_guarded = 1u;
 #else
     for (uint o = lane; o < body_count; o += kLanes) paces[o].pace = pace_of(o, paces[o].velocity.w);
-    if (lane != 0u) return;
-    clock[0].is_guarded = 0u;
-    clock[0].gained = gained;
-    if (now.has_past == 0u || !(gained > 0.0)) return;
-    clock[0].damps = 1u;
-    clock[0].goes_on = 0u;
+    StepClock now = clock[0];
+    now.is_guarded = 0u;
+    now.gained = gained;
+    if (now.has_past != 0u && gained > 0.0) {
+        now.damps = 1u;
+        now.goes_on = 0u;
+    }
+    memoryBarrierBuffer();
+    barrier();  // all have read it
+    set_clock(now);
 #endif
 }

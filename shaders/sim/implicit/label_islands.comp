@@ -2,7 +2,6 @@
 // over slots, and from where they point, until none changes. One work group.
 // CPU twins: gelatin::cpu::Islands::find, gelatin::cpu::Guard::find_frames. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 const uint kLanes = 256u;
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/near_pairs.glsl"
 layout(local_size_x = 256) in;
 
@@ -10,11 +9,9 @@ uniform uint object_count;
 layout(std430) coherent buffer Labels { uint labels[]; };
 
 #ifdef PAIRS
-bool is_needed() { return goes_on() && counts[0].is_full == 0u; }
 bool connects(uint s, uvec4 slot) { return slot.z < slot.w; }
 #else
 uniform usamplerBuffer slot_rows;  // SlotRows, a texel each
-bool is_needed() { return makes_rows(clock[0]); }
 bool connects(uint s, uvec4 slot) { return is_body(slot.x) && is_body(slot.y) && texelFetch(slot_rows, int(s)).x > 0u; }
 #endif
 
@@ -27,7 +24,7 @@ void wait_for_all() {
 }
 
 void main() {
-    if (!is_needed()) return;
+    if (counts[0].is_full != 0u) return;
     uint lane = gl_LocalInvocationID.x, end = counts[0].slots;
     for (uint o = lane; o < object_count; o += kLanes) labels[o] = o;
     bool is_over = false;

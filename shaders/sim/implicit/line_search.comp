@@ -1,9 +1,10 @@
 // How much of its step at all nodes an island makes, and the slips of its rows there; a work group an island.
 // CPU twin: gelatin::cpu::IslandSolve::newton_step. Parity: tests/gpu/implicit/step_system_test.cpp.
-const uint kLanes = 256u;
+#include "sim/implicit/island_lanes.glsl"
 #include "sim/implicit/solve_system.glsl"
+#include "sim/implicit/large_islands.glsl"
 #include "sim/implicit/line_search.glsl"
-layout(local_size_x = 256) in;
+layout(local_size_x = LANES) in;
 
 uniform samplerBuffer displacements;  // d before the step, xyz [m]
 uniform samplerBuffer steps;          // [m]
@@ -20,7 +21,9 @@ void main() {
     if (is_small(island)) return;
     SolveState state = states[state_before(i)];
     if (!has_rows(island) || state.made == 0u) {
-        if (lane == 0u) parts[i] = has_rows(island) ? 0.0 : 1.0;
+        if (lane != 0u) return;
+        parts[i] = has_rows(island) ? 0.0 : 1.0;
+        if (!has_rows(island) && state.is_done == 0u) open_round();
         return;
     }
     vec2 sum = vec2(0.0);
@@ -31,5 +34,7 @@ void main() {
     // Those of a body with itself have not followed its rigid motion so far.
     for (uint r = island.first_row + lane; r < island.row_end; r += kLanes)
         slips[r].xyz = relative(rows[r], displacements) + part * change_of(r);
-    if (lane == 0u) parts[i] = part;
+    if (lane != 0u) return;
+    parts[i] = part;
+    open_round();
 }

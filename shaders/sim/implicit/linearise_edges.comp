@@ -51,7 +51,7 @@ mat3 neo_hookean_matrix(uint number, uvec4 tet, vec4 rest, uint c, uint e) {
 
 void main() {
     uint index = global_index();
-    if (index >= edge_count || !goes_on()) return;
+    if (index >= edge_count) return;
     ElementEdge edge = edges[index];
     vec3 apart = texelFetch(positions, int(edge.upper)).xyz - texelFetch(positions, int(edge.lower)).xyz;
     float inverse_length = inversesqrt(max(dot(apart, apart), 1e-30));

@@ -2,7 +2,6 @@
 // CPU twin: gelatin::cpu::ElasticSystem. Parity: tests/gpu/implicit/elastic_system_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/element_edge.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/half_edges.glsl"
 layout(local_size_x = 64) in;
 
@@ -15,7 +14,7 @@ uniform uint node_count;
 
 void main() {
     uint n = global_index();
-    if (n >= node_count || !goes_on()) return;
+    if (n >= node_count) return;
     vec3 force = vec3(0.0), diagonal = vec3(0.0), beside = vec3(0.0);
     uint end = texelFetch(half_edge_starts, int(n / kSlice) + 1).x;
     for (uint k = texelFetch(half_edge_starts, int(n / kSlice)).x + n % kSlice; k < end; k += kSlice) {

@@ -1,10 +1,10 @@
 // The tangents of a large island's rows, or their chords in the first round; and by them what the inverses of bodies' blocks are. A
 // work group an island.
 // CPU twin: gelatin::cpu::IslandRows. Parity: tests/gpu/implicit/step_system_test.cpp.
-const uint kLanes = 256u;
+#include "sim/implicit/island_lanes.glsl"
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/row_list.glsl"
-layout(local_size_x = 256) in;
+layout(local_size_x = LANES) in;
 
 uniform uint is_first;
 layout(std430) readonly buffer Slips { vec4 slips[]; };  // s [m]; w: limit of friction [N]

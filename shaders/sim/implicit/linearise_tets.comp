@@ -2,7 +2,6 @@
 // tet's stiffness k [J] against changes of J; minus its product with w is the force. Neo-Hookean: minus the force, and 1.
 // CPU twin: gelatin::cpu::ElasticSystem. Parity: tests/gpu/implicit/elastic_system_test.cpp.
 #include "include/global_index.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/tets.glsl"
 layout(local_size_x = 64) in;
 
@@ -18,7 +17,7 @@ void write_rows(uint t, vec3 one, vec3 two, vec3 three, float w) {
 
 void main() {
     uint t = global_index();
-    if (t >= tet_count || !goes_on()) return;
+    if (t >= tet_count) return;
     uvec4 tet = texelFetch(tets, int(t));
     vec4 rest = texelFetch(tet_rests, int(t));
     float pressure = volume_pressure(tet, rest.x);

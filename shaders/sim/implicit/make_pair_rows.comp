@@ -1,5 +1,4 @@
-// The rows of near pairs, by slot in the order of its pairs, and what nodes and pairs have of them. Each invocation makes every so
-// many.
+// The rows of near pairs, by slot in the order of its pairs, and what nodes and pairs have of them. An invocation a pair.
 // CPU twin: gelatin::cpu::ContactRows::add. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/implicit/clock.glsl"
@@ -56,18 +55,17 @@ StepRow row_of(NearPair near, PairWeight own) {
 }
 
 void main() {
-    if (!makes_rows(clock[0])) return;
-    for (uint p = global_index(); p < counts[0].pairs; p += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
-        PairWeight own = fetch_weight(p);
-        if (!(own.stiffness > 0.0)) continue;
-        NearPair near = fetch_pair(p);
-        uvec4 place = texelFetch(row_places, int(body_count + near.slot)), nodes = nodes_of(near);  // first row, end, first chunk
-        uint r = place.x + own.place;
-        rows[r] = row_of(near, own);
-        row_notes[r] = RowMemory(vec4(0.0), 0.0, near.first, near.is_edges != 0u ? near.second : near.other, near.is_edges);
-        for (int k = 0; k < 4; ++k)
-            if (near.weights[k] != 0.0) row_entries[atomicAdd(next_entries[nodes[k]], 1u)] = 4u * r + uint(k);
-        if (own.place % kRowsOfChunk == 0u)
-            row_chunks[place.z + own.place / kRowsOfChunk] = uvec2(r, min(r + kRowsOfChunk, place.y));
-    }
+    uint p = global_index();
+    if (p >= counts[0].pairs) return;
+    PairWeight own = fetch_weight(p);
+    if (!(own.stiffness > 0.0)) return;
+    NearPair near = fetch_pair(p);
+    uvec4 place = texelFetch(row_places, int(body_count + near.slot)), nodes = nodes_of(near);  // first row, end, first chunk
+    uint r = place.x + own.place;
+    rows[r] = row_of(near, own);
+    row_notes[r] = RowMemory(vec4(0.0), 0.0, near.first, near.is_edges != 0u ? near.second : near.other, near.is_edges);
+    for (int k = 0; k < 4; ++k)
+        if (near.weights[k] != 0.0) row_entries[atomicAdd(next_entries[nodes[k]], 1u)] = 4u * r + uint(k);
+    if (own.place % kRowsOfChunk == 0u)
+        row_chunks[place.z + own.place / kRowsOfChunk] = uvec2(r, min(r + kRowsOfChunk, place.y));
 }

@@ -76,7 +76,7 @@ void write_row(uint n, uint r, StepRow row, uvec2 of_body, uint first_chunk) {
 
 void main() {
     uint chunk_number = group_index();
-    if (chunk_number >= chunk_count || !makes_part()) return;
+    if (chunk_number >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(chunk_number));
     bool is_body = chunk.x < body_count;
     uvec4 place = place_of(chunk.x);

@@ -84,7 +84,7 @@ void add_row(uint entry, inout double sums[kStartMomentum]) {
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || !goes_on()) return;
+    if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     vec3 center = center_of(chunk.x);
     double sums[kStartMomentum];

@@ -10,9 +10,6 @@ uniform usamplerBuffer pair_slots;   // PairSlot, a texel each
 uniform uint body_count;
 layout(std430) readonly buffer Counts { PairCounts counts[]; };
 
-// Whether the try makes rows: not if it is for the guard alone, or if some pairs had no place.
-bool makes_rows(StepClock now) { return now.goes_on != 0u && now.guards == 0u && counts[0].is_full == 0u; }
-
 bool is_body(uint object) { return object < body_count; }
 
 NearPair fetch_pair(uint p) {

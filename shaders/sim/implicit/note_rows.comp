@@ -1,4 +1,4 @@
-// What contacts of two objects hold when a part has been solved. Each invocation notes every so many.
+// What contacts of two objects hold when a part has been solved. An invocation a row.
 // CPU twin: gelatin::cpu::ContactRows::note. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/near_pair.glsl"
@@ -11,12 +11,11 @@ layout(std430) readonly buffer Rows { StepRow rows[]; };
 layout(std430) buffer RowNotes { RowMemory row_notes[]; };
 
 void main() {
-    if (!makes_part()) return;
-    for (uint r = global_index(); r < clock[0].row_count; r += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
-        StepRow row = rows[r];
-        vec3 s = texelFetch(slips, int(r)).xyz;
-        float limit = row.friction * pressing(row, s);
-        row_notes[r].hold = vec4(limit > 0.0 ? held_at(row, s, limit) : vec3(0.0), limit);
-        row_notes[r].reach = row.reach;
-    }
+    uint r = global_index();
+    if (r >= clock[0].row_count) return;
+    StepRow row = rows[r];
+    vec3 s = texelFetch(slips, int(r)).xyz;
+    float limit = row.friction * pressing(row, s);
+    row_notes[r].hold = vec4(limit > 0.0 ? held_at(row, s, limit) : vec3(0.0), limit);
+    row_notes[r].reach = row.reach;
 }

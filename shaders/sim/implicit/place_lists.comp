@@ -34,7 +34,7 @@ bool begin_next(uint count) {
 
 void main() {
     Dispatch sums = dispatches[2u * stage + 1u];
-    if (!goes_on() || sums.groups_x == 0u) return;
+    if (sums.groups_x == 0u) return;
     uint groups = sums.count / kCountsAGroup + 1u, share = (groups + kLanes - 1u) / kLanes;
     uint first = share * gl_LocalInvocationID.x, end = min(first + share, groups), own = 0u, all;
     for (uint g = first; g < end; ++g) own += group_sums[g];
@@ -48,6 +48,9 @@ void main() {
     if (stage == kOfLeafPairs) {
         dispatches[kWrites] = dispatches[2u * kOfLeafPairs];
         dispatches[kSlotEnds] = dispatch_invocations(counts[0].slots);
+        if (clock[0].guards != 0u) return;
+        dispatches[kNearPairs] = dispatch_invocations(all);
+        dispatches[kSlotGroups] = make_dispatch(counts[0].slots, counts[0].slots);
         return;
     }
     uint lanes = stage == kOfSlots ? 1u : kLanesALeafPair;

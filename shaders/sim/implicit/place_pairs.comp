@@ -1,12 +1,14 @@
-// Whether the part is short enough for what its bodies touch; if so, where the rows of islands and bodies go in the tables. If not,
-// or if the step is over, or something has no place, there are no islands. One work group.
+// Whether the part is short enough for what its bodies touch, and all has a place; if so, where the rows of islands and bodies go in
+// the tables. One work group.
 // CPU twin: gelatin::cpu::ImplicitStep::run. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 const uint kLanes = 256u;
 #include "layouts/step_rows.glsl"
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/group_sums.glsl"
 #include "sim/implicit/near_pairs.glsl"
+#include "sim/collision/make_dispatch.glsl"
 #include "sim/implicit/part_choices.glsl"
+#include "sim/implicit/tries.glsl"
 layout(local_size_x = 256) in;
 
 uniform usamplerBuffer chunk_starts;   // of each object, and the end
@@ -16,7 +18,6 @@ uniform usamplerBuffer body_touches;   // BodyTouch, two texels each
 uniform usamplerBuffer paces;          // BodyPace, five texels each
 uniform uint object_count;
 uniform uint row_capacity;
-layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) buffer Islands { StepIsland islands[]; };
 layout(std430) writeonly buffer IslandOfObject { uint island_of_object[]; };
 layout(std430) writeonly buffer BodyPlaces { BodyPlace body_places[]; };
@@ -89,11 +90,10 @@ void place_couplings() {
     }
 }
 
-// Also of bodies that have no islands.
-void number_islands(bool goes_on) {
+// Also of objects that have no islands.
+void number_islands() {
     for (uint o = gl_LocalInvocationID.x; o < object_count; o += kLanes) {
-        bool has_island = goes_on && o < body_count;
-        uint island = has_island ? label_of(o) : kNone;
+        uint island = o < body_count ? label_of(o) : kNone;
         island_of_object[o] = island;
         if (island != o) islands[o] = StepIsland(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     }
@@ -109,21 +109,21 @@ StepClock given_up(StepClock now, uint missing) {
 
 void main() {
     StepClock now = clock[0];
+    if (counts[0].is_full != 0u) now = given_up(now, 0u);
+    else if (counts[0].fastest > kFastest && !is_shortest(now)) now = halved(now);
+    else now = with_length(now, count_parts(), find_deepest());
     if (now.goes_on != 0u) {
-        if (now.guards != 0u) return;
-        if (counts[0].is_full != 0u) now = given_up(now, 0u);
-        else if (counts[0].fastest > kFastest && !is_shortest(now)) now = halved(now);
-        else now = with_length(now, count_parts(), find_deepest());
-        if (now.goes_on != 0u) {
-            uint count = place_bodies();
-            place_couplings();
-            now.has_past = 0u;  // until an island has
-            now.row_count = min(count, row_capacity);
-            if (count > row_capacity) now = given_up(now, count - row_capacity);
-        }
-        memoryBarrierBuffer();
-        barrier();  // all have read the clock, and islands are written
-        if (gl_LocalInvocationID.x == 0u) clock[0] = now;
+        uint count = place_bodies();
+        place_couplings();
+        now.has_past = 0u;  // until an island has
+        now.row_count = min(count, row_capacity);
+        if (count > row_capacity) now = given_up(now, count - row_capacity);
     }
-    number_islands(now.goes_on != 0u);
+    memoryBarrierBuffer();
+    barrier();  // all have read the clock, and islands are written
+    number_islands();
+    set_clock(now);
+    if (now.goes_on == 0u) return;
+    barrier();  // the argument below is the last word
+    if (gl_LocalInvocationID.x == 0u) dispatches[kRows] = dispatch_invocations(now.row_count);
 }

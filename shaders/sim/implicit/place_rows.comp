@@ -1,6 +1,5 @@
 // Whether the part is short enough for what its bodies touch; if so, by which scheme each body goes on, and where rows and their
-// tables go. Bodies have rows with planes alone: each is an island by itself, all of its rows are one pair. If not, or if the step
-// is over, there are no islands. One work group.
+// tables go. Bodies have rows with planes alone: each is an island by itself, all of its rows are one pair. One work group.
 // CPU twin: gelatin::cpu::ImplicitStep::run, gelatin::cpu::Paces. Parity: tests/gpu/implicit/part_start_test.cpp.
 const uint kLanes = 256u;
 #include "layouts/packing.glsl"
@@ -8,6 +7,7 @@ const uint kLanes = 256u;
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/group_sums.glsl"
 #include "sim/implicit/part_choices.glsl"
+#include "sim/implicit/tries.glsl"
 layout(local_size_x = 256) in;
 
 uniform usamplerBuffer chunk_starts;  // of each object, and the end
@@ -16,7 +16,6 @@ uniform samplerBuffer wave_times;     // of bodies [s]
 uniform uint object_count;
 uniform uint body_count;
 uniform uint row_capacity;
-layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) buffer Paces { BodyPace paces[]; };
 layout(std430) writeonly buffer Islands { StepIsland islands[]; };
 layout(std430) writeonly buffer IslandOfObject { uint island_of_object[]; };
@@ -83,29 +82,26 @@ uint place_bodies() {
     return first_row;
 }
 
-// Also of bodies that have no islands.
-void number_islands(bool goes_on) {
+// Also of objects that have no islands.
+void number_islands() {
     for (uint o = gl_LocalInvocationID.x; o < object_count; o += kLanes) {
-        bool is_island = goes_on && o < body_count;
+        bool is_island = o < body_count;
         island_of_object[o] = is_island ? o : kNone;
         if (!is_island) islands[o] = StepIsland(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     }
 }
 
 void main() {
-    StepClock now = clock[0];
+    StepClock now = with_length(clock[0], count_parts(), find_deepest());
     if (now.goes_on != 0u) {
-        now = with_length(now, count_parts(), find_deepest());
         bool any_past = false;
-        if (now.goes_on != 0u) {
-            for (uint o = gl_LocalInvocationID.x; o < body_count; o += kLanes)
-                any_past = choose_scheme(o, now) || any_past;
-            uint count = place_bodies();
-            now.row_count = min(count, row_capacity);
-            now.dropped_rows = max(now.dropped_rows, count - now.row_count);
-            now.has_past = max_over_group(any_past ? 1.0 : 0.0) > 0.0 ? 1u : 0u;
-        }
-        if (gl_LocalInvocationID.x == 0u) clock[0] = now;
+        for (uint o = gl_LocalInvocationID.x; o < body_count; o += kLanes) any_past = choose_scheme(o, now) || any_past;
+        uint count = place_bodies();
+        now.row_count = min(count, row_capacity);
+        now.dropped_rows = max(now.dropped_rows, count - now.row_count);
+        now.has_past = max_over_group(any_past ? 1.0 : 0.0) > 0.0 ? 1u : 0u;
+        number_islands();
     }
-    number_islands(now.goes_on != 0u);
+    barrier();  // all have read the clock
+    set_clock(now);
 }

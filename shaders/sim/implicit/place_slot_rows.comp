@@ -31,7 +31,7 @@ void put(uint place, uvec3 at, uint count, uvec2 sides) {
 
 void main() {
     uint o = group_index(), lane = gl_LocalInvocationID.x;
-    if (o >= body_count || !makes_rows(clock[0])) return;
+    if (o >= body_count) return;
     uvec4 place = texelFetch(body_places, int(o));
     uvec3 next = place.xyz, all;
     uint end = texelFetch(slot_starts, int(o) + 1).x;

@@ -20,7 +20,6 @@ layout(std430) readonly buffer Speeds { float speeds[]; };         // by object 
 layout(std430) writeonly buffer Counts { PairCounts counts[]; };
 
 void main() {
-    if (!goes_on()) return;
     uint lane = gl_LocalInvocationID.x, count = 0u;
     float fastest = 0.0;
     for (uint base = 0u; base < object_count; base += kLanes) {

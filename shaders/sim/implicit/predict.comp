@@ -18,7 +18,7 @@ layout(std430) writeonly buffer PartSums { StartSums part_sums[]; };  // by chun
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || !goes_on()) return;
+    if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     float step = clock[0].step, left = clock[0].left, least = max(step, kFrame), longest = 0.0;
     StartSums own = StartSums(vec4(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0);

@@ -2,7 +2,6 @@
 // first object is the lesser has both.
 // CPU twin: gelatin::cpu::Restitution::note. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kSums = 17u;  // kPairSums but for both objects
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/lane_sums.glsl"
 #include "sim/implicit/pair_restitution.glsl"
 #include "sim/implicit/rows.glsl"
@@ -82,7 +81,6 @@ void add_rows(uint p, uvec2 objects, float side, inout double sums[kSums]) {
 
 void main() {
     uint p = group_index(), lane = gl_LocalInvocationID.x;
-    if (!goes_on()) return;
     uvec2 objects = objects_of(p), wanted = uvec2(min(objects.x, objects.y), max(objects.x, objects.y));
     double sums[kSums];
     for (uint k = 0u; k < kSums; ++k) sums[k] = 0.0LF;

@@ -1,5 +1,5 @@
-// If the part is made, what its contacts hold is what they held before. A row's first node always bears some of it. Each invocation
-// copies every so many.
+// If the part is made, what its contacts hold is what they held before. A row's first node always bears some of it. An
+// invocation a node.
 // CPU twin: gelatin::cpu::ContactRows::remember. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/near_pair.glsl"
@@ -17,10 +17,12 @@ layout(std430) writeonly buffer KnownRows { RowMemory known_rows[]; };
 
 void main() {
     if (changes[0].action != 1u) return;
-    uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x, first = global_index();
-    for (uint n = first; n <= node_count; n += stride) known_starts[n] = texelFetch(entry_starts, int(n)).x;
-    uint end = texelFetch(entry_starts, int(node_count)).x;
-    for (uint e = first; e < end; e += stride) {
+    uint n = global_index();
+    if (n >= node_count) return;
+    uint first = texelFetch(entry_starts, int(n)).x, end = texelFetch(entry_starts, int(n) + 1).x;
+    known_starts[n] = first;
+    known_starts[n + 1u] = end;  // whoever writes it writes the same
+    for (uint e = first; e < end; ++e) {
         uint entry = texelFetch(row_entries, int(e)).x;
         known_entries[e] = entry;
         if (entry % 4u == 0u) known_rows[entry / 4u] = row_notes[entry / 4u];

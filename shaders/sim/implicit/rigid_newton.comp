@@ -1,13 +1,13 @@
 // The rigid motions of bodies that balance their contacts, by Newton's method; a work group an island does all of it. The limits of
 // friction stay as they are until bodies are nearly in balance (Tresca's friction).
 // CPU twin: gelatin::cpu::RigidSolve::run. Parity: tests/gpu/implicit/step_system_test.cpp.
-const uint kLanes = 256u;
+#include "sim/implicit/island_lanes.glsl"
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/line_search.glsl"
 #include "sim/implicit/rigid_level.glsl"
 #include "sim/implicit/rigid_bodies.glsl"
 #include "sim/implicit/move_nodes.glsl"
-layout(local_size_x = 256) in;
+layout(local_size_x = LANES) in;
 
 uniform samplerBuffer base_sums;  // ResidualSums of chunks, two texels each: forces of all but rows
 uniform float tolerance;          // forces that may be left on a body, as a part of what presses it

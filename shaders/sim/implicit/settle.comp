@@ -95,14 +95,14 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     StepClock now = clock[0];
     float gained = most_gained();
-    bool is_tried = now.goes_on != 0u, is_done = is_made(now, gained);
+    bool is_done = is_made(now, gained);
     for (uint o = lane; o < object_count; o += kLanes) {
         if (!is_done || o >= body_count) changes[o].action = is_done ? 1u : 0u;  // what is no body goes where it goes
         else if (is_finite(gained)) make(o, now.step);
         else stay(o, now.step);
         if (is_done) energies[o].tied = energies[o].next_tied;
     }
-    if (lane != 0u || !is_tried) return;
+    if (lane != 0u) return;
     now.gained = gained;
     now.damps = 0u;
     if (is_done) {
@@ -115,7 +115,6 @@ void main() {
         now.step *= 0.5;
         now.goes_on = 0u;
     }
-    now.guards = 0u;
     now.is_guarded = clock[0].is_guarded;
     clock[0] = now;
 }

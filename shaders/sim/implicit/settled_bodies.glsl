@@ -10,10 +10,7 @@ bool is_finite(float x) { return !isinf(x) && !isnan(x); }
 float shortest_part(StepClock now) { return now.size / float(kMostParts); }
 
 // One that has gained too much is made again, shorter, if it can be.
-bool is_made(StepClock now, float gained) {
-    bool is_too_long = !(now.step < 2.0 * shortest_part(now)) && gained > kMostGain;
-    return now.goes_on != 0u && !is_too_long;
-}
+bool is_made(StepClock now, float gained) { return now.step < 2.0 * shortest_part(now) || !(gained > kMostGain); }
 
 double island_sum(uint o, uint k) { return island_sums[o * kIslandSums + k]; }
 

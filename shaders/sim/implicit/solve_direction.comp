@@ -14,6 +14,7 @@ layout(std430) buffer States { SolveState states[]; };
 uniform samplerBuffer body_motions;  // BodyMotion by object, two texels each
 uniform uint is_first;               // of the linearisations
 #else
+#include "sim/implicit/large_islands.glsl"
 layout(std430) readonly buffer Lacks { float lacks[]; };  // r . z by chunk [J]
 
 // What the island lacks after an iteration.
@@ -53,6 +54,7 @@ void main() {
     if (!was_done) state = next_state(state, total_lack(island), has_rows(island));
     if (writes_state) states[state_after(i)] = state;
     if (was_done) return;
+    if (writes_state) open_iteration();  // or else that would not have the state
     float b = state.lack / before;
 #endif
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {

@@ -4,6 +4,7 @@
 const uint kLanes = 64u;
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/solve_state.glsl"
+#include "sim/implicit/large_islands.glsl"
 #include "sim/implicit/group_sums.glsl"
 layout(local_size_x = 64) in;
 
@@ -17,7 +18,11 @@ void main() {
     uint i = group_index(), lane = gl_LocalInvocationID.x;
     if (i >= object_count) return;
     StepIsland island = fetch_island(i);
-    if (is_small(island) || (is_first == 0u && !has_rows(island))) return;  // those without rows go on with the first one
+    if (is_small(island)) return;
+    if (is_first == 0u && !has_rows(island)) {  // goes on with the first one
+        if (lane == 0u && states[state_before(i)].is_done == 0u) open_iteration();
+        return;
+    }
     vec2 total = vec2(0.0);
     for (uint k = island.first_body + lane; k < island.body_end; k += kLanes) {
         uint object = texelFetch(island_bodies, int(k)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
@@ -36,5 +41,7 @@ void main() {
     SolveState state = SolveState(0.0, 0u, 0u, 0u, 0u, 0.0, 0u, 0u);
     if (is_first == 0u) state = states[state_before(i)];
     if (is_first == 0u && state.made == 0u) state.is_over = 1u;
-    states[state_before(i)] = first_state(state, total, has_rows(island));
+    state = first_state(state, total, has_rows(island));
+    states[state_before(i)] = state;
+    if (state.is_done == 0u) open_iteration();
 }

@@ -1,7 +1,6 @@
 // The rows of each node ascend, in whatever order they were written: so sums over them have a fixed order. An invocation a node.
 // Host: gpu::RowTables. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 #include "include/global_index.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/near_pairs.glsl"
 layout(local_size_x = 64) in;
 
@@ -11,7 +10,7 @@ layout(std430) buffer RowEntries { uint row_entries[]; };
 
 void main() {
     uint n = global_index();
-    if (n >= node_count || !makes_rows(clock[0])) return;
+    if (n >= node_count) return;
     uint first = texelFetch(entry_starts, int(n)).x, end = texelFetch(entry_starts, int(n) + 1).x;
     for (uint e = first + 1u; e < end; ++e) {
         uint entry = row_entries[e], at = e;

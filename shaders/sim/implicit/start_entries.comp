@@ -13,7 +13,7 @@ layout(std430) writeonly buffer EntryStarts { uint entry_starts[]; };  // of eac
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x, sum = 0u, next;
-    if (c >= chunk_count || !makes_rows(clock[0])) return;
+    if (c >= chunk_count) return;
     for (uint k = lane; k < c; k += kLanes) sum += texelFetch(chunk_entries, int(k)).x;
     count_before(sum, next);
     uvec4 chunk = texelFetch(chunks, int(c));

@@ -34,7 +34,7 @@ vec3 in_tables(uint count) { return vec3(count, count > 0u ? 1u : 0u, (count + k
 BodyTouch find_touch(uint o, BodyRows planes) {
     vec4 sums = vec4(0.0);  // w: couplings
     float deepest = 0.0, is_driven = 0.0;
-    uint end = makes_rows(clock[0]) ? texelFetch(slot_starts, int(o) + 1).x : 0u;
+    uint end = counts[0].is_full == 0u ? texelFetch(slot_starts, int(o) + 1).x : 0u;
     for (uint s = texelFetch(slot_starts, int(o)).x + gl_LocalInvocationID.x; s < end; s += kLanes) {
         uint other = texelFetch(pair_slots, int(s)).y;
         uvec4 slot = texelFetch(slot_rows, int(s)), twin = slot.y == kNone ? uvec4(0u) : texelFetch(slot_rows, int(slot.y));
@@ -85,7 +85,7 @@ BodyRows sum_rows(uint first, uint end) {
 
 void main() {
     uint o = group_index();
-    if (o >= body_count || !makes_part()) return;
+    if (o >= body_count) return;
     uint first = texelFetch(chunk_starts, int(o)).x, end = texelFetch(chunk_starts, int(o) + 1).x;
     StartSums sums = sum_chunks(first, end);
     BodyRows rows = sum_rows(first, end);

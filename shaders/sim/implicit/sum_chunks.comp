@@ -3,7 +3,6 @@
 // CPU twin: gelatin::cpu::EnergyAccount::measure. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kSums = 12u;  // kGainSums
 #define SUMS_ARE_OWN
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/lane_sums.glsl"
 #include "sim/implicit/object_sums.glsl"
 #include "sim/implicit/energy_gain.glsl"
@@ -38,7 +37,7 @@ void sum_chunks(IslandBodies island) {
 
 void main() {
     uint number = group_index(), lane = gl_LocalInvocationID.x;
-    if (number >= body_count || !goes_on()) return;
+    if (number >= body_count) return;
     IslandBodies island = bodies_beside(number);
     if (first_body(island) != number) return;
     sum_chunks(island);

@@ -5,7 +5,6 @@ const uint kLanes = 256u;
 #include "include/global_index.glsl"
 #include "layouts/pair_stages.glsl"
 #include "sim/collision/dispatches.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/group_counts.glsl"
 layout(local_size_x = 256) in;
 
@@ -15,7 +14,7 @@ layout(std430) writeonly buffer GroupSums { uint group_sums[]; };
 
 void main() {
     uint group = group_index(), count = dispatches[2u * stage].count;
-    if (!goes_on() || group * kCountsAGroup > count) return;
+    if (group * kCountsAGroup > count) return;
     const uint share = kCountsAGroup / kLanes;
     uint first = share * global_index(), end = min(first + share, count + 1u), own = 0u, all;
     for (uint k = first; k < min(end, count); ++k) own += starts[k];

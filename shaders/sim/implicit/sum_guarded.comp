@@ -12,7 +12,7 @@ uniform samplerBuffer end_positions;  // [m]; w: inverse mass
 
 void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
-    if (c >= chunk_count || !goes_on()) return;
+    if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
     double sums[kGuardSums];
     for (uint k = 0u; k < kGuardSums; ++k) sums[k] = 0.0LF;

@@ -21,7 +21,7 @@ layout(std430) buffer Paces { BodyPace paces[]; };
 
 void main() {
     uint i = group_index();
-    if (i >= body_count || !makes_rows(clock[0])) return;
+    if (i >= body_count) return;
     uint first = texelFetch(islands, 3 * int(i)).x, end = texelFetch(islands, 3 * int(i)).y;
     StepClock now = clock[0];
     StartSums sums = StartSums(vec4(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0);

@@ -2,7 +2,7 @@
 // group an object.
 // CPU twin: gelatin::cpu::RigidLevel::velocity. Parity: tests/gpu/implicit/part_end_test.cpp.
 #include "layouts/end_sums.glsl"
-#include "sim/implicit/clock.glsl"
+#include "layouts/step_state.glsl"
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/inverse_inertia.glsl"
 layout(local_size_x = 64) in;
@@ -15,7 +15,7 @@ shared double body_sums[6];  // momentum, angular momentum
 
 void main() {
     uint o = group_index(), lane = gl_LocalInvocationID.x;
-    if (o >= object_count || !goes_on()) return;
+    if (o >= object_count) return;
     if (lane < 6u) {
         uint k = lane < 3u ? kMomentum + lane : kTurning + lane - 3u, end = texelFetch(chunk_starts, int(o) + 1).x;
         double sum = 0.0LF;

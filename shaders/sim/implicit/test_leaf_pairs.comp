@@ -5,7 +5,6 @@
 #include "layouts/near_pair.glsl"
 #include "sim/collision/dispatches.glsl"
 #include "sim/collision/nearest_points.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/list_starts.glsl"
 #include "sim/implicit/path_boxes.glsl"
 layout(local_size_x = 64) in;
@@ -136,7 +135,7 @@ NearPair make_pair(LeafPair pair, Element element, uint second) {
 
 void main() {
     uint index = global_index(), p = index / kLanesALeafPair, lane = index % kLanesALeafPair;
-    if (p >= dispatches[kWrites].count || !goes_on()) return;
+    if (p >= dispatches[kWrites].count) return;
     LeafPair pair = fetch_leaf_pair(p);
     uint place = list_start(hit_starts, hit_sums, p);
     for (uint k = index - lane; k < index; ++k) {
@@ -153,21 +152,40 @@ void main() {
     }
 }
 #else
+const uint kFeatures = 16u, kFaces = 4u;  // of the second leaf: faces, then edges
+shared uvec3 feature_nodes[64u / kLanesALeafPair * kFeatures];
+shared vec3 lows[64u / kLanesALeafPair * kFeatures], highs[64u / kLanesALeafPair * kFeatures];
+
+// The nodes and boxes of the second leaf's. @param first of the pair of leaves
+void find_features(LeafPair pair, uint first, uint lane) {
+    Frame frame = frame_of(pair.other);
+    for (uint k = lane; k < kFeatures; k += kLanesALeafPair) {
+        bool is_edge = k >= kFaces;
+        uint number = is_edge ? pair.to.y + k - kFaces : pair.to.x + k;
+        if (number >= (is_edge ? pair.to.w : pair.to.z) || (is_edge && !pair.has_edges)) continue;
+        uvec3 nodes = is_edge ? texelFetch(face_edges, int(number)).xyy : texelFetch(faces, int(number)).xyz;
+        Bounds box = path_bounds(nodes, frame);
+        feature_nodes[first + k] = nodes;
+        lows[first + k] = box.min;
+        highs[first + k] = box.max;
+    }
+}
+
 // The bits of what is near an element.
-uint test_element(LeafPair pair, Element element) {
+uint test_element(LeafPair pair, Element element, uint first) {
     uint candidates = 0u, near = 0u;
     if (element.count == 0u) return 0u;
-    Frame frame = frame_of(pair.object), other = frame_of(pair.other);
-    Bounds box = swept(path_bounds(element.nodes.xyy, frame), frame.motion - other.motion);
+    if (element.is_edge) first += kFaces;
+    Bounds box = swept(path_bounds(element.nodes.xyy, frame_of(pair.object)), motion_of(pair.object) - motion_of(pair.other));
     for (uint k = 0u; k < element.count; ++k) {
-        uvec3 nodes = nodes_of(element, element.first + k);
-        bool is_candidate = may_meet(pair, element, element.first + k, nodes) && meet(box, path_bounds(nodes, other));
+        bool is_candidate = meet(box.min, box.max, lows[first + k], highs[first + k]) &&
+                            may_meet(pair, element, element.first + k, feature_nodes[first + k]);
         candidates |= uint(is_candidate) << k;
     }
     float wanted = reach_of(pair) + slack_of(pair.object) + slack_of(pair.other);
     for (; candidates != 0u; candidates &= candidates - 1u) {
         uint k = uint(findLSB(candidates));
-        uvec3 nodes = nodes_of(element, element.first + k);
+        uvec3 nodes = feature_nodes[first + k];
         Measured at = measure(element, nodes);
         bool is_far = at.gap > wanted && separation(element, nodes, at.normal) > wanted;
         near |= uint(!is_far) << k;
@@ -179,12 +197,18 @@ shared uint lane_hits[64];
 
 void main() {
     uint index = global_index(), p = index / kLanesALeafPair, lane = index % kLanesALeafPair;
+    uint here = gl_LocalInvocationID.x, first = here / kLanesALeafPair * kFeatures, count = 0u;
     uvec2 own = uvec2(0u);
-    bool is_pair = p < dispatches[2u * kOfLeafPairs].count && goes_on();
+    bool is_pair = p < dispatches[2u * kOfLeafPairs].count;
+    LeafPair pair;
     if (is_pair) {
-        LeafPair pair = fetch_leaf_pair(p);
+        pair = fetch_leaf_pair(p);
+        find_features(pair, first, lane);
+    }
+    barrier();
+    if (is_pair) {
         for (uint k = 0u; k < 3u; ++k) {
-            uint bits = test_element(pair, fetch_element(pair, lane + kLanesALeafPair * k));
+            uint bits = test_element(pair, fetch_element(pair, lane + kLanesALeafPair * k), first);
             if (k < 2u) {
                 own.x |= bits << (16u * k);
             } else {
@@ -193,7 +217,6 @@ void main() {
         }
         hits[index] = own;
     }
-    uint here = gl_LocalInvocationID.x, count = 0u;
     lane_hits[here] = uint(bitCount(own.x) + bitCount(own.y));
     barrier();
     if (!is_pair || lane != 0u) return;

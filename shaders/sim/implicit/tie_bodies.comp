@@ -3,8 +3,9 @@
 // CPU twin: gelatin::cpu::TimeScheme::tie. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kLanes = 256u;
 #include "layouts/dispatch.glsl"
+#include "layouts/tries.glsl"
 #include "layouts/step_end.glsl"
-#include "sim/implicit/clock.glsl"
+#include "layouts/step_state.glsl"
 #include "sim/implicit/solve_system.glsl"
 #include "sim/implicit/island_bodies.glsl"
 layout(local_size_x = 256) in;
@@ -35,7 +36,6 @@ void unite(uint a, uint b) {
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    if (!goes_on()) return;
     if (lane == 0u) pair_count = 0u;
     wait_for_group();
     for (uint number = lane; number < object_count; number += kLanes)
@@ -45,7 +45,7 @@ void main() {
         energies[o].next_tied = o;
     }
     wait_for_group();
-    if (lane == 0u) dispatches[0] = Dispatch(min(pair_count, 65535u), 1u, 1u, min(pair_count, 65535u));
+    if (lane == 0u) dispatches[kPressedPairs] = Dispatch(min(pair_count, 65535u), 1u, 1u, min(pair_count, 65535u));
     for (uint o = lane; o < body_count; o += kLanes)
         atomicOr(energies[energies[o].tied].schemes, paces[o].past > 0.0 ? kNewmarks : kEulers);
     wait_for_group();

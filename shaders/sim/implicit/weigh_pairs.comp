@@ -2,7 +2,6 @@
 // invocation makes every so many pairs.
 // CPU twin: gelatin::cpu::ContactRows::make. Parity: tests/gpu/implicit/pair_rows_test.cpp.
 #include "include/global_index.glsl"
-#include "sim/implicit/clock.glsl"
 #include "sim/implicit/near_pairs.glsl"
 #include "sim/implicit/feasible_region.glsl"
 #include "sim/implicit/pair_sides.glsl"
@@ -77,14 +76,13 @@ PairWeight weigh(NearPair near) {
 }
 
 void main() {
-    if (!makes_rows(clock[0])) return;
-    for (uint p = global_index(); p < counts[0].pairs; p += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
-        NearPair near = fetch_pair(p);
-        PairWeight own = weigh(near);
-        pair_weights[p] = own;
-        if (!(own.stiffness > 0.0)) continue;
-        uvec4 nodes = nodes_of(near);
-        for (int k = 0; k < 4; ++k)
-            if (near.weights[k] != 0.0) atomicAdd(entry_counts[nodes[k]], 1u);
-    }
+    uint p = global_index();
+    if (p >= counts[0].pairs) return;
+    NearPair near = fetch_pair(p);
+    PairWeight own = weigh(near);
+    pair_weights[p] = own;
+    if (!(own.stiffness > 0.0)) return;
+    uvec4 nodes = nodes_of(near);
+    for (int k = 0; k < 4; ++k)
+        if (near.weights[k] != 0.0) atomicAdd(entry_counts[nodes[k]], 1u);
 }

@@ -61,28 +61,24 @@ BodyContacts::BodyContacts(const Model& model, const ContactSurface& surface, St
     }
 }
 
-void BodyContacts::find(const ModelBuffers& model, bool own) const {
-    finder.run(model, own);
+void BodyContacts::find(const ModelBuffers& model, bool follows) const {
+    finder.run(model, follows);
     rows.find_guard_islands(guard_.islands.values);
 }
 
 void BodyContacts::guard(const ModelBuffers& model) const {
-    for (std::uint32_t pass = 0; pass < contact_tuning::kGuardPasses; ++pass) {
-        if (pass > 0) find(model);
-        guard_.run(model);
-        finder.find_lost(state_->to);
-        guard_.decide();
-    }
-    guard_.close();
+    guard_.run(model);
+    finder.find_lost(state_->to);
+    guard_.decide();
 }
 
 void BodyContacts::follow(const ModelBuffers& model) const {
     begin_follow_.dispatch(model_->node_count());
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
-    find(model, false);
+    state_->tries.follow_clock();
+    find(model, true);
     guard_.run(model);
-    guard_.decide();
-    guard_.close();
+    guard_.decide(1);
     end_follow_.dispatch(model_->node_count());
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
@@ -107,14 +103,14 @@ void BodyContacts::grow(const PairCapacity& capacity) {
     finder.grow();
     rows.grow();
     guard_.grow();
-    StepClock clock = read(state_->clock)[0];
+    StepClock clock = state_->tries.clock();
     clock.is_full = 0;
-    state_->clock.upload(std::vector{clock});
+    state_->tries.set_clock(clock);
 }
 
 ContactForces BodyContacts::forces() const {
     ContactForceSums sums(*model_);
-    const std::size_t count = read(state_->clock)[0].row_count;
+    const std::size_t count = state_->tries.clock().row_count;
     if (count == 0) return sums.take();
     gl::Buffer<glm::vec4> forces(2 * count);
     system_->buffers().bind(row_forces_);

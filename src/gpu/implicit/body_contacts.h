@@ -33,13 +33,14 @@ public:
     /// Of the system with so much room for pairs.
     static RowCapacity capacity_of(const Model& model, const PairCapacity& room);
 
-    /// Pairs that may come near each other where nodes go by state.predicted. Ends with the barrier for
-    /// PartStart::find_rows. @param own whether bodies that may meet themselves are searched for it
-    void find(const ModelBuffers& model, bool own = true) const;
+    /// Pairs that may come near each other where nodes go by state.predicted, or in a try with the guard
+    /// alone by the paths that it has left. Ends with the barrier for PartStart::find_rows. @param follows as
+    /// FindPairs::run has it
+    void find(const ModelBuffers& model, bool follows = false) const;
     /// What contacts hold, after the solve.
     void note() const { rows.note(); }
-    /// Nodes of state.to, as PartEnd::finish wants them, go as far as nothing crosses. Ends with the barrier
-    /// for PartEnd::settle.
+    /// Nodes of state.to, as PartEnd::finish wants them, go as far as nothing crosses; or the next try goes
+    /// on with that. Ends with the barrier for PartEnd::settle.
     void guard(const ModelBuffers& model) const;
     /// Where a step begins: takes bodies from state.from to where shapes were put back, state.to, if nothing
     /// is in their way; else they stay. Ends with the barrier for who reads nodes.

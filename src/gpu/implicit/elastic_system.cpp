@@ -1,6 +1,7 @@
 #include "gpu/implicit/elastic_system.h"
 
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "model/elasticity/element_edges.h"
@@ -123,19 +124,15 @@ void ElasticSystem::bind_product(const gl::Program& program, const gl::BufferTex
 }
 
 void ElasticSystem::linearise(const ModelBuffers& model, const NodeBuffers& at,
-                              const gl::BufferTexture& damping_times,
-                              const gl::Buffer<StepClock>& clock) const {
+                              const gl::BufferTexture& damping_times, Tries& tries) const {
     if (stresses_) stresses_->run(model, at);
-    for (const gl::Program* program : {&tet_program_, &edge_program_, &node_program_})
-        program->bind("Clock", clock);
+    for (const gl::Program* program : {&tet_program_, &edge_program_, &node_program_}) tries.bind(*program);
     for (const gl::Program* program : {&tet_program_, &edge_program_})
         program->bind("positions", at.position_texels);
     edge_program_.bind("damping_times", damping_times);
-    tet_program_.dispatch(tet_count_);
-    gl::barrier(gl::Barrier::texture_fetch);
-    edge_program_.dispatch(edge_count_);
-    gl::barrier(gl::Barrier::texture_fetch);
-    node_program_.dispatch(node_count_);
+    for (const auto& [program, count] :
+         {std::pair(&tet_program_, tet_count_), {&edge_program_, edge_count_}, {&node_program_, node_count_}})
+        tries.run(Tries::Where::makes_part, *program, (count + 63) / 64);
 }
 
 void ElasticSystem::multiply(const gl::Buffer<glm::vec4>& products) const {

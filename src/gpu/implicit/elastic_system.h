@@ -7,6 +7,7 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/elasticity/find_volume_stresses.h"
+#include "gpu/implicit/tries.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
 #include "model/model.h"
@@ -21,11 +22,11 @@ class ElasticSystem {
 public:
     explicit ElasticSystem(const Model& model);
 
-    /// If the try goes on. Who reads what is found needs a barrier.
+    /// Ends with the barrier for whoever reads what is found.
     /// @param at where a part of a step begins @param damping_times of nodes [s], a texel each
-    /// @param clock whose step is that of the part
+    /// @param tries the clock has the step of the part, which is made
     void linearise(const ModelBuffers& model, const NodeBuffers& at, const gl::BufferTexture& damping_times,
-                   const gl::Buffer<StepClock>& clock) const;
+                   Tries& tries) const;
 
     /// f [N], xyz, and the blocks of K on its diagonal, shape [nodes]; of held nodes, too.
     const gl::Buffer<glm::vec4>& forces() const { return forces_; }

@@ -72,8 +72,8 @@ FindPairs::Starts::Starts(std::size_t capacity)
     : starts(capacity + 1, gl::TexelFormat::r32ui),
       group_sums(capacity / stages::kCountsAGroup + 1, gl::TexelFormat::r32ui) {}
 
-FindPairs::FindPairs(const Model& model, const ContactSurface& surface, const StepState& state,
-                     PairBuffers& pairs, bool own)
+FindPairs::FindPairs(const Model& model, const ContactSurface& surface, StepState& state, PairBuffers& pairs,
+                     bool own)
     : state_(state),
       pairs_(pairs),
       object_count_(static_cast<std::uint32_t>(model.objects.size())),
@@ -86,8 +86,7 @@ FindPairs::FindPairs(const Model& model, const ContactSurface& surface, const St
       surface_nodes_(model.surface_parts.nodes, gl::TexelFormat::r32ui),
       face_edges_(model.surface_parts.edges, gl::TexelFormat::rgba32ui),
       convex_(model, surface, own),
-      speeds_(model.objects.size()),
-      dispatches_(std::vector<Dispatch>(stages::kPairDispatches, Dispatch{0, 1, 1, 0})) {
+      speeds_(model.objects.size()) {
     grow();
 }
 
@@ -120,6 +119,7 @@ void FindPairs::bind_buffers() const {
 void FindPairs::bind_tables(const gl::Program& program) const {
     program.set("finds_own", programs_.own ? 1u : 0u);
     program.bind_declared("positions", state_.from.position_texels);
+    program.bind_declared("velocities", state_.from.velocity_texels);
     program.bind_declared("tree_nodes", trees_.node_texels);
     program.bind_declared("tree_boxes", trees_.box_texels);
     program.bind_declared("TreeBoxes", trees_.boxes);
@@ -134,7 +134,6 @@ void FindPairs::bind_tables(const gl::Program& program) const {
 
 void FindPairs::bind_lists(const gl::Program& program) const {
     program.bind_declared("Speeds", speeds_);
-    program.bind_declared("Dispatches", dispatches_);
     program.bind_declared("search_starts", of_slots_.starts.texels);
     program.bind_declared("search_sums", of_slots_.group_sums.texels);
     program.bind_declared("walk_starts", of_searches_.starts.texels);
@@ -146,14 +145,12 @@ void FindPairs::bind_lists(const gl::Program& program) const {
     hits_.bind(program, "Hits", "hits");
 }
 
-void FindPairs::run_groups(const gl::Program& program, std::size_t groups) const {
-    program.dispatch_groups(groups);
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
+void FindPairs::run(const gl::Program& program, std::size_t groups) const {
+    state_.tries.run(Tries::Where::goes_on, program, groups);
 }
 
 void FindPairs::run_counted(const gl::Program& program, std::uint32_t dispatch) const {
-    program.dispatch_indirect(dispatches_.id(), dispatch * sizeof(Dispatch));
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+    state_.tries.run_counted(program, dispatch);
 }
 
 // Of the next list.
@@ -167,7 +164,7 @@ void FindPairs::place(std::uint32_t stage) const {
     }
     programs_.sum_counts.bind("Starts", list.starts.values);
     run_counted(programs_.sum_counts, 2 * stage + 1);
-    run_groups(programs_.place_lists, 1);
+    run(programs_.place_lists, 1);
 }
 
 void FindPairs::find_boxes(const ModelBuffers& model) const {
@@ -176,19 +173,20 @@ void FindPairs::find_boxes(const ModelBuffers& model) const {
         update_level(level == 0 ? programs_.box_leaves : programs_.box_nodes, trees_, level);
 }
 
-void FindPairs::run(const ModelBuffers& model, bool own) const {
+void FindPairs::run(const ModelBuffers& model, bool follows) const {
     const Programs& p = programs_;
     for (const gl::Program* program : {&p.find_paths, &p.count_slots, &p.list_slots})
-        program->set("finds_own", own && p.own ? 1u : 0u);
-    run_groups(p.find_paths, object_count_);
+        program->set("finds_own", !follows && p.own ? 1u : 0u);
+    p.find_paths.set("follows", follows ? 1u : 0u);
+    run(p.find_paths, object_count_);
     find_boxes(model);
     if (convex_.tet_count > 0) {
-        run_groups(p.find_rotations, body_count_);
-        run_groups(p.find_lost_on_paths, (convex_.tet_count + 63) / 64);
+        state_.tries.run(Tries::Where::makes_part, p.find_rotations, body_count_);
+        state_.tries.run(Tries::Where::makes_part, p.find_lost_on_paths, (convex_.tet_count + 63) / 64);
     }
-    run_groups(p.count_slots, object_count_);
-    run_groups(p.place_slots, 1);
-    run_groups(p.list_slots, object_count_);
+    run(p.count_slots, object_count_);
+    run(p.place_slots, 1);
+    run(p.list_slots, object_count_);
     run_counted(p.count_searches, 2 * stages::kOfSlots);
     place(stages::kOfSlots);
     run_counted(p.list_searches, 2 * stages::kOfSlots);
@@ -206,7 +204,7 @@ void FindPairs::run(const ModelBuffers& model, bool own) const {
 void FindPairs::find_lost(const NodeBuffers& ends) const {
     if (convex_.tet_count == 0) return;
     programs_.find_lost.bind("ends", ends.position_texels);
-    run_groups(programs_.find_lost, (convex_.tet_count + 63) / 64);
+    run(programs_.find_lost, (convex_.tet_count + 63) / 64);
 }
 
 }  // namespace gelatin::gpu

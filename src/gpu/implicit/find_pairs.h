@@ -27,7 +27,7 @@ class FindPairs {
 public:
     /// @param own whether bodies meet themselves
     /// @param state, pairs which it reads and writes, and which have to live as long
-    FindPairs(const Model& model, const ContactSurface& surface, const StepState& state, PairBuffers& pairs,
+    FindPairs(const Model& model, const ContactSurface& surface, StepState& state, PairBuffers& pairs,
               bool own);
 
     /// After PairBuffers::grow.
@@ -35,8 +35,8 @@ public:
 
     /// Finds the pairs of `state.predicted`, or in a try that goes on with the guard alone those of the paths
     /// that it has left. Ends with the barrier for whoever reads them.
-    /// @param own whether bodies that may meet themselves are searched for it
-    void run(const ModelBuffers& model, bool own = true) const;
+    /// @param follows nodes go as predicted, bodies do not meet themselves: they are only put elsewhere
+    void run(const ModelBuffers& model, bool follows = false) const;
     /// Whether bodies may meet themselves where nodes end, though pairs were left out, as they hardly
     /// deformed: sets PairCounts::has_lost; then the guard has to be asked for again, before which run()
     /// lists them, too.
@@ -61,11 +61,11 @@ private:
     void bind_tables(const gl::Program& program) const;
     void bind_lists(const gl::Program& program) const;
     void find_boxes(const ModelBuffers& model) const;
-    void run_groups(const gl::Program& program, std::size_t groups) const;
+    void run(const gl::Program& program, std::size_t groups) const;
     void run_counted(const gl::Program& program, std::uint32_t dispatch) const;
     void place(std::uint32_t stage) const;
 
-    const StepState& state_;
+    StepState& state_;
     PairBuffers& pairs_;
     std::uint32_t object_count_, body_count_;
     Programs programs_;
@@ -74,8 +74,7 @@ private:
     gl::TexelTable<std::uint32_t> leaf_starts_, surface_nodes_;
     gl::TexelTable<FaceEdge> face_edges_;
     ConvexBodies convex_;
-    gl::Buffer<float> speeds_;         // by object [reaches]
-    gl::Buffer<Dispatch> dispatches_;  // pair_stages
+    gl::Buffer<float> speeds_;  // by object [reaches]
     Starts of_slots_, of_searches_, of_leaf_pairs_;
     StepBuffer<glm::uvec2> searches_;    // leaf, slot
     StepBuffer<glm::uvec2> leaf_pairs_;  // search, leaf

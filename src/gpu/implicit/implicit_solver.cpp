@@ -80,7 +80,7 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
       state_(*model_, surface_),
       room_(has_contacts(*model_, collision) ? std::optional(room.value_or(PairCapacity::of(*model_)))
                                              : std::nullopt),
-      system_(*model_, capacity_of(*model_, room_), most_small_chunks()),
+      system_(*model_, state_.tries, capacity_of(*model_, room_), most_small_chunks()),
       contacts_(room_ ? std::optional<BodyContacts>(std::in_place, *model_, surface_, state_, system_,
                                                     collision.self_collision.value_or(true), *room_)
                       : std::nullopt),
@@ -89,7 +89,7 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
       shape_matcher_(*model_) {
     if (!model_->handles.empty() && model_->is_body(model_->handles[0].object))
         held_forces_.emplace(*model_, state_, system_);
-    system_.iterations = settings.iterations;
+    system_.set_iterations(settings.iterations);
     set_contact_distances({surface_.thicknesses.begin(), surface_.thicknesses.end()});
 }
 
@@ -193,7 +193,7 @@ void ImplicitSolver::match_shapes(double elapsed) {
 void ImplicitSolver::make_tries() {
     for (std::uint32_t k = 0; k < tries_; ++k) make_try();
     copy_nodes(state_.from, current_);
-    clocks_.begin(state_.clock.id(), sizeof(StepClock));
+    clocks_.begin(state_.tries.clock_buffer().id(), sizeof(StepClock));
 }
 
 void ImplicitSolver::make_try() {
@@ -246,7 +246,7 @@ void ImplicitSolver::complete() {
     while (clocks_.pending() > 0) {
         StepClock clock;
         std::memcpy(&clock, clocks_.take().data(), sizeof(clock));
-        tries_ = std::clamp(clock.tries + 1, 2u, 8u);
+        tries_ = std::clamp(clock.tries, 1u, 8u);
         if (clock.is_full != 0) grow(contacts_->needed());
         if (clock.is_over == 0) {
             gl::barrier(gl::Barrier::storage);  // the copy has to have read the clock

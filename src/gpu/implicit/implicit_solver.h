@@ -24,9 +24,9 @@ namespace gelatin::gpu {
 /// Makes implicit steps, with contacts between bodies where there may be any.
 ///
 /// A step is made in parts, and a part may take several tries (PartEnd). How many it takes the device alone
-/// knows, so the host launches as many as the steps before have needed and one more. What is left of a step
-/// after these is made before anybody reads nodes, or the next step begins: until then a picture shows bodies
-/// that are late by so much. CPU twin: cpu::SystemSolver.
+/// knows, so the host launches as many as the step before has needed. What is left of a step after these is
+/// made before anybody reads nodes, or the next step begins: until then a picture shows bodies that are late
+/// by so much. CPU twin: cpu::SystemSolver.
 class ImplicitSolver : public GpuSolver {
 public:
     /// @param room for pairs of surfaces at first, by default for usual cases; it grows
@@ -65,7 +65,7 @@ private:
     bool goes_on_ = false;      // with earlier velocities of a state that was written
     bool is_next_ = false;      // state_ has nodes where the last step ended
     double size_ = 0.0;         // of the last step; 0: none was made since nodes were set [s]
-    std::uint32_t tries_ = 2;   // to launch
+    std::uint32_t tries_ = 1;   // to launch
     bool has_warned_ = false;   // of contacts without a place
     bool may_be_lost_ = false;  // by the step before: a body has lost its shape
     gl::Readback clocks_;       // of steps that were launched: of one at most

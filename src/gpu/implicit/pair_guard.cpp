@@ -25,10 +25,6 @@ std::vector<std::uint32_t> places_of_nodes(const Model& model) {
     return places;
 }
 
-void wait_for_guard() {
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
-}
-
 }  // namespace
 
 PairGuard::Programs::Programs(const Model& model)
@@ -38,11 +34,10 @@ PairGuard::Programs::Programs(const Model& model)
       pairs(guard_program("pairs")),
       end(guard_program("end")),
       decide(guard_program("decide")),
-      close(guard_program("close")),
       stay(guard_program("stay")) {}
 
 std::vector<const gl::Program*> PairGuard::Programs::all() const {
-    return {&begin, &frames, &nodes, &pairs, &end, &decide, &close, &stay};
+    return {&begin, &frames, &nodes, &pairs, &end, &decide, &stay};
 }
 
 PairGuard::PairGuard(const Model& model, StepState& state, PairBuffers& pairs)
@@ -55,7 +50,6 @@ PairGuard::PairGuard(const Model& model, StepState& state, PairBuffers& pairs)
       programs_(model),
       node_objects_(places_of_nodes(model), gl::TexelFormat::r32ui),
       found_(std::vector<GuardState>(1)),
-      dispatches_(std::vector<Dispatch>(2 * (kGuardRounds + 1))),
       node_clips_(std::vector<NodeClips>(node_count_)),
       marks_(std::vector<std::uint32_t>(object_count_)),
       wanted_(node_count_, gl::TexelFormat::rgba32f),
@@ -75,7 +69,6 @@ void PairGuard::grow() {
         state_->bind(*program);
         pairs_->bind(*program);
         program->bind_declared("Guard", found_);
-        program->bind_declared("Dispatches", dispatches_);
         program->bind_declared("Clips", node_clips_);
         program->bind_declared("HalfSpaces", half_spaces_);
         program->bind_declared("ClipLinks", clip_links_);
@@ -94,45 +87,38 @@ void PairGuard::grow() {
     programs_.pairs.bind("ends", state_->to.position_texels);
 }
 
+void PairGuard::run(const gl::Program& program, std::size_t groups) const {
+    state_->tries.run(Tries::Where::goes_on, program, groups);
+}
+
 // Where the round before has left work. The nodes of a round come before its pairs.
 void PairGuard::run_round(const gl::Program& program, std::uint32_t round) const {
     program.set("round_", round);
-    const std::size_t place = 2 * std::size_t{round} - (&program == &programs_.nodes ? 1 : 0);
-    program.dispatch_indirect(dispatches_.id(), place * sizeof(Dispatch));
-    wait_for_guard();
+    const std::uint32_t pairs = try_dispatches::kGuardRound + 2 * round;
+    state_->tries.run_counted(program, &program == &programs_.nodes ? pairs - 1 : pairs);
 }
 
 void PairGuard::run(const ModelBuffers& model) const {
     const Programs& p = programs_;
     for (const gl::Program* program : {&p.frames, &p.nodes}) model.bind_colliders(*program);
-    p.begin.dispatch_groups(chunk_count_);
-    wait_for_guard();
-    p.frames.dispatch_groups(object_count_);
-    wait_for_guard();
+    run(p.begin, chunk_count_);
+    run(p.frames, object_count_);
     if (has_colliders_) {
         p.nodes.set("round_", 0u);
-        p.nodes.dispatch(node_count_);
-        wait_for_guard();
+        run(p.nodes, (node_count_ + 63) / 64);
     }
     run_round(p.pairs, 0);
     for (std::uint32_t round = 1; round <= kGuardRounds; ++round) {
         run_round(p.nodes, round);
         run_round(p.pairs, round);
     }
-    p.end.dispatch(node_count_);
-    wait_for_guard();
+    run(p.end, (node_count_ + 63) / 64);
 }
 
-void PairGuard::decide() const {
-    programs_.decide.dispatch_groups(1);
-    wait_for_guard();
-}
-
-void PairGuard::close() const {
-    programs_.close.dispatch_groups(1);
-    wait_for_guard();
-    programs_.stay.dispatch_indirect(dispatches_.id(), (2 * kGuardRounds + 1) * sizeof(Dispatch));
-    wait_for_guard();
+void PairGuard::decide(std::uint32_t most) const {
+    programs_.decide.set("most_guards", most);
+    run(programs_.decide, 1);
+    state_->tries.run_counted(programs_.stay, try_dispatches::kGuardStays);
 }
 
 }  // namespace gelatin::gpu

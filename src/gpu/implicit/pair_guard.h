@@ -10,6 +10,7 @@
 #include "gpu/implicit/step_state.h"
 #include "gpu/model_buffers.h"
 #include "model/model.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::gpu {
 
@@ -18,7 +19,7 @@ namespace gelatin::gpu {
 ///
 /// Each pair is checked, and what fails is clipped, in contact_tuning::kGuardRounds rounds. Islands in which
 /// pairs fail after that move as a whole, or not at all. Where nodes end beside their paths, pairs of these
-/// have to be found anew, for another pass (StepClock::guards).
+/// have to be found anew, for another try (StepClock::guards).
 class PairGuard {
 public:
     /// @param state, pairs have to live as long
@@ -30,14 +31,11 @@ public:
     /// and of state `from`, the compliances in predicted, and the clock. Ends with the barrier for whoever
     /// reads nodes or paths.
     void run(const ModelBuffers& model) const;
-    /// Then, after it is known what bodies have lost (PairCounts::has_lost): whether that was all. If so,
-    /// nothing goes on until close(); else pairs are found anew, and it runs again. Ends with the barrier for
-    /// whoever reads the clock.
-    void decide() const;
-    /// After the last pass: the try goes on with where nodes are now; or the part is halved, as no way was
-    /// found. In the shortest part nothing moves then. Ends with the barrier for whoever reads nodes or the
-    /// clock.
-    void close() const;
+    /// Then, after it is known what bodies have lost (PairCounts::has_lost): whether that was all. If not,
+    /// the next try goes on with the guard alone. When it has run `most` times in a part, that is halved, as
+    /// no way was found; in the shortest part nothing moves. Ends with the barrier for whoever reads nodes or
+    /// the clock.
+    void decide(std::uint32_t most = contact_tuning::kGuardPasses) const;
 
     /// Of each object: the first object of those with pairs in common, itself among them. GuardIslands,
     /// guard_islands.
@@ -49,8 +47,9 @@ private:
     struct Programs {
         explicit Programs(const Model& model);
         std::vector<const gl::Program*> all() const;
-        gl::Program begin, frames, nodes, pairs, end, decide, close, stay;
+        gl::Program begin, frames, nodes, pairs, end, decide, stay;
     };
+    void run(const gl::Program& program, std::size_t groups) const;
     void run_round(const gl::Program& program, std::uint32_t round) const;
 
     StepState* state_;
@@ -61,7 +60,6 @@ private:
     gl::TexelTable<Chunk> chunks_;
     gl::TexelTable<std::uint32_t> node_objects_;
     gl::Buffer<GuardState> found_;
-    gl::Buffer<Dispatch> dispatches_;       // by round: nodes, its pairs; the last: of what stays
     gl::Buffer<NodeClips> node_clips_;      // by node
     gl::Buffer<glm::vec4> half_spaces_;     // four a pair, one for each of its nodes
     gl::Buffer<std::uint32_t> clip_links_;  // of half spaces

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cassert>
 
+#include "model/shared_constants.h"
+
 namespace gelatin::gpu {
 namespace {
-
-// So many at most, whose invocations make every so many elements of lists of which the device alone knows how
-// long they are.
-constexpr std::size_t kMostGroups = 512;
-
-std::size_t groups_for(std::size_t capacity, std::size_t lanes) {
-    return std::clamp<std::size_t>((capacity + lanes - 1) / lanes, 1, kMostGroups);
-}
 
 std::vector<glm::vec2> touches_of(const ContactSurface& surface) {
     std::vector<glm::vec2> touches;
@@ -60,8 +54,8 @@ std::vector<const gl::Program*> PairRows::Programs::all() const {
             &remember};
 }
 
-PairRows::PairRows(const Model& model, const ContactSurface& surface, const StepState& state,
-                   StepSystem& system, const PairBuffers& pairs)
+PairRows::PairRows(const Model& model, const ContactSurface& surface, StepState& state, StepSystem& system,
+                   const PairBuffers& pairs)
     : node_count_(model.node_count()),
       body_count_(static_cast<std::uint32_t>(model.body_count())),
       collider_count_(static_cast<std::uint32_t>(model.colliders.size())),
@@ -95,9 +89,6 @@ void PairRows::make_room() {
     const PairCapacity& pairs = pairs_.capacity;
     const RowCapacity& rows = system_.capacity();
     assert(rows.rows > 0 && rows.pairs >= body_count_ + pairs.slots);
-    pair_groups_ = groups_for(pairs.pairs, 64);
-    slot_groups_ = groups_for(pairs.slots, 1);
-    row_groups_ = groups_for(std::max<std::size_t>(4 * rows.rows, node_count_), 64);
     pair_weights_ = {pairs.pairs, gl::TexelFormat::rgba32ui};
     slot_rows_ = {pairs.slots, gl::TexelFormat::rgba32ui};
     row_places_ = {body_count_ + pairs.slots, gl::TexelFormat::rgba32ui};
@@ -160,16 +151,15 @@ void PairRows::bind_tables(const gl::Program& program) const {
 }
 
 void PairRows::run(const gl::Program& program, std::size_t groups) const {
-    program.dispatch_groups(groups);
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+    state_.tries.run(Tries::Where::makes_part, program, groups);
 }
 
 void PairRows::weigh(const ModelBuffers& model) {
     programs_.weigh.bind("faces", model.face_texels);
     gl::barrier(gl::Barrier::buffer_update);
     entry_counts_.fill(0);
-    run(programs_.weigh, pair_groups_);
-    run(programs_.count_slot_rows, slot_groups_);
+    state_.tries.run_counted(programs_.weigh, pair_stages::kNearPairs);
+    state_.tries.run_counted(programs_.count_slot_rows, pair_stages::kSlotGroups);
 }
 
 void PairRows::place(bool has_forces) const {
@@ -183,7 +173,7 @@ void PairRows::place(bool has_forces) const {
     run(p.sum_islands, body_count_);
     run(p.count_entries, chunk_count_);
     run(p.start_entries, chunk_count_);
-    run(p.make, pair_groups_);
+    state_.tries.run_counted(p.make, pair_stages::kNearPairs);
 }
 
 void PairRows::sort() const {
@@ -192,16 +182,16 @@ void PairRows::sort() const {
 
 void PairRows::find_guard_islands(const gl::Buffer<std::uint32_t>& labels) const {
     programs_.label_all.bind("Labels", labels);
-    run(programs_.label_all, 1);
+    state_.tries.run(Tries::Where::goes_on, programs_.label_all, 1);
 }
 
 void PairRows::note() const {
-    run(programs_.note, row_groups_);
+    state_.tries.run_counted(programs_.note, try_dispatches::kRows);
 }
 
 void PairRows::remember(const gl::Buffer<BodyChange>& changes) const {
     programs_.remember.bind("BodyChanges", changes);
-    run(programs_.remember, row_groups_);
+    state_.tries.run(Tries::Where::goes_on, programs_.remember, (node_count_ + 63) / 64);
 }
 
 PairRows::Memory PairRows::memory() const {

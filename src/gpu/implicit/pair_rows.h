@@ -23,7 +23,7 @@ class PairRows {
 public:
     /// @param state, pairs have to live as long, as has what the system owns
     /// @pre the system's capacity has a pair for each body and each slot
-    PairRows(const Model& model, const ContactSurface& surface, const StepState& state, StepSystem& system,
+    PairRows(const Model& model, const ContactSurface& surface, StepState& state, StepSystem& system,
              const PairBuffers& pairs);
 
     /// After PairBuffers::grow and StepSystem::grow. What contacts held is known further on.
@@ -75,8 +75,7 @@ private:
     void run(const gl::Program& program, std::size_t groups) const;
 
     std::uint32_t node_count_, body_count_, collider_count_, chunk_count_, kind_count_;
-    std::size_t pair_groups_ = 0, slot_groups_ = 0, row_groups_ = 0;
-    const StepState& state_;
+    StepState& state_;
     const StepSystem& system_;
     const PairBuffers& pairs_;
     Programs programs_;

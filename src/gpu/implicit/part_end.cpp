@@ -118,7 +118,6 @@ PartEnd::PartEnd(const Model& model, StepState& state, StepSystem& system, const
       restitutions_(restitutions_of(contacts), gl::TexelFormat::r32f),
       kind_count_(contacts != nullptr ? contacts->kind_count : 1),
       rigid_velocities_(object_count_, gl::TexelFormat::rgba32f),
-      pair_dispatch_(std::vector<Dispatch>{{0, 1, 1, 0}}),
       finish_sums_(zeros(end_sums::kFinishSums * chunk_count_)),
       energy_sums_(zeros(end_sums::kEnergySums * chunk_count_)),
       part_sums_(zeros(end_sums::kPartSums * chunk_count_)),
@@ -194,7 +193,6 @@ void PartEnd::bind_buffers() const {
 void PartEnd::bind_contacts(const gl::Program& program) const {
     program.bind_declared("kinds", kinds_);
     program.bind_declared("restitutions", restitutions_);
-    program.bind_declared("Dispatches", pair_dispatch_);
     program.bind_declared("PairPresses", presses_);
     program.bind_declared("PairMeetings", pair_meetings_);
     program.set("kind_count", kind_count_);
@@ -232,14 +230,15 @@ void PartEnd::bind_nodes() const {
 }
 
 void PartEnd::run(const gl::Program& program, std::uint32_t groups) const {
-    program.dispatch_groups(groups);
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+    state_->tries.run(Tries::Where::goes_on, program, groups);
 }
 
 void PartEnd::begin_step(const ModelBuffers& model) const {
     model.volume_term.bind(programs_.find_energies);
-    run(programs_.find_energies, chunk_count_);
-    run(programs_.begin_energies, (object_count_ + 63) / 64);
+    programs_.find_energies.dispatch_groups(chunk_count_);
+    gl::barrier(gl::Barrier::storage);
+    programs_.begin_energies.dispatch(object_count_);
+    gl::barrier(gl::Barrier::storage);
 }
 
 void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads) const {
@@ -250,12 +249,16 @@ void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads) const {
     }
     model.volume_term.bind(p.keep);
     p.measure.bind("colliders", model.colliders);
-    if (p.has_contacts) run(p.tie_bodies, 1);
-    for (const gl::Program* program : {&p.sum_motions, &p.finish, &p.keep}) run(*program, chunk_count_);
-    run(p.sum_velocities, object_count_);
-    run(p.measure, chunk_count_);
-    run(p.sum_chunks, object_count_);
-    run(p.judge, 1);
+    const auto run_in_part = [&](const gl::Program& program, std::uint32_t groups) {
+        state_->tries.run(Tries::Where::makes_part, program, groups);
+    };
+    if (p.has_contacts) run_in_part(p.tie_bodies, 1);
+    for (const gl::Program* program : {&p.sum_motions, &p.finish, &p.keep})
+        run_in_part(*program, chunk_count_);
+    run_in_part(p.sum_velocities, object_count_);
+    run_in_part(p.measure, chunk_count_);
+    run_in_part(p.sum_chunks, object_count_);
+    run_in_part(p.judge, 1);
 }
 
 void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
@@ -292,9 +295,7 @@ void PartEnd::end_guarded(const ModelBuffers& model) const {
 void PartEnd::end_part(const ModelBuffers& model) const {
     programs_.settle.bind("colliders", model.colliders);
     if (programs_.has_restitution) {
-        gl::barrier(gl::Barrier::command);
-        programs_.press_pairs.dispatch_indirect(pair_dispatch_.id(), 0);
-        gl::barrier(gl::Barrier::storage);
+        state_->tries.run_counted(programs_.press_pairs, try_dispatches::kPressedPairs);
         run(programs_.meet_pairs, 1);
     }
     run(programs_.settle, 1);
@@ -305,7 +306,7 @@ void PartEnd::forget() {
     gl::barrier(gl::Barrier::buffer_update);
     const std::size_t planes = state_->plane_memories.size();
     state_->plane_memories.upload(std::vector<PlaneMemory>(planes));
-    state_->clock.upload(std::vector<StepClock>(1));
+    state_->tries.set_clock({});
     state_->paces.values.upload(std::vector<BodyPace>(object_count_));
     energies_.upload(unknown_energies(object_count_));
     meetings_.upload(std::vector<double>(meetings_.size()));
@@ -324,7 +325,7 @@ PartEnd::Memory PartEnd::empty_memory() const {
 
 PartEnd::Memory PartEnd::memory() const {
     Memory memory = empty_memory();
-    state_->clock.download(memory.clock);
+    memory.clock = {state_->tries.clock()};
     state_->paces.values.download(memory.paces);
     state_->accelerations.values.download(memory.accelerations);
     state_->plane_memories.download(memory.planes);
@@ -335,7 +336,7 @@ PartEnd::Memory PartEnd::memory() const {
 }
 
 void PartEnd::set_memory(const Memory& memory) {
-    state_->clock.upload(memory.clock);
+    state_->tries.set_clock(memory.clock[0]);
     state_->paces.values.upload(memory.paces);
     state_->accelerations.values.upload(memory.accelerations);
     state_->plane_memories.upload(memory.planes);
@@ -369,6 +370,7 @@ void PartEnd::go_on(std::span<const glm::vec4> positions, std::span<const glm::v
             momentum += m * change;
             angular += m * glm::cross(r, change);
         }
+        paces[o].velocity.w = static_cast<float>(mass);
         paces[o].force = glm::vec4(momentum, 0.0);
         if (mass > 0.0) paces[o].moment = glm::vec4(angular - glm::cross(middle, momentum) / mass, 0.0);
     }
@@ -377,7 +379,7 @@ void PartEnd::go_on(std::span<const glm::vec4> positions, std::span<const glm::v
     state_->paces.values.upload(paces);
     StepClock clock{};
     clock.last_step = static_cast<float>(step);
-    state_->clock.upload(std::vector<StepClock>{clock});
+    state_->tries.set_clock(clock);
 }
 
 }  // namespace gelatin::gpu

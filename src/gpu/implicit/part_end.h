@@ -117,7 +117,6 @@ private:
     gl::TexelTable<float> restitutions_;
     std::uint32_t kind_count_, meeting_capacity_ = 0;
     StepBuffer<BodyMotion> rigid_velocities_;     // by object
-    gl::Buffer<Dispatch> pair_dispatch_;          // a work group a pair of the tables
     gl::Buffer<double> presses_, pair_meetings_;  // by pair of the tables; of objects
     gl::Buffer<double> finish_sums_, energy_sums_, part_sums_, guard_sums_;  // by chunk
     gl::Buffer<double> pressed_sums_, meetings_;                             // by collider

@@ -43,7 +43,7 @@ std::vector<const gl::Program*> PartStart::Programs::all() const {
     return all;
 }
 
-PartStart::PartStart(const Model& model, const StepState& state, const StepSystem& system, PairRows* pairs)
+PartStart::PartStart(const Model& model, StepState& state, const StepSystem& system, PairRows* pairs)
     : state_(state),
       system_(system),
       pairs_(pairs),
@@ -92,8 +92,13 @@ void PartStart::bind_buffers() const {
 }
 
 void PartStart::run(const gl::Program& program, std::uint32_t groups) const {
+    state_.tries.run(Tries::Where::makes_part, program, groups);
+}
+
+// Whatever the clock says.
+void PartStart::run_always(const gl::Program& program, std::uint32_t groups) const {
     program.dispatch_groups(groups);
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
 }
 
 void PartStart::begin_step(const NodeBuffers& nodes, double size, bool divides, bool is_next) const {
@@ -103,7 +108,7 @@ void PartStart::begin_step(const NodeBuffers& nodes, double size, bool divides, 
     programs_.begin_step.set("keeps_held", is_next && pairs_ != nullptr ? 1u : 0u);
     programs_.begin_step.set("size", static_cast<float>(size));
     programs_.begin_step.set("divides", divides ? 1u : 0u);
-    run(programs_.begin_step, (node_count_ + 63) / 64);
+    run_always(programs_.begin_step, (node_count_ + 63) / 64);
 }
 
 void PartStart::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
@@ -120,7 +125,7 @@ void PartStart::predict(const ModelBuffers& model, const SumLoads* loads) const 
     assert((loads != nullptr) == has_loads_);
     if (loads != nullptr) loads->bind(programs_.predict);
     programs_.predict.set("gravity", model.gravity);
-    run(programs_.begin_try, 1);
+    run_always(programs_.begin_try, 1);
     run(programs_.predict, chunk_count_);
 }
 
@@ -131,7 +136,7 @@ void PartStart::linearise(const ModelBuffers& model, const SumLoads* loads) cons
     model.pulls.bind(p.find_targets);
     run(p.find_targets, chunk_count_);
     run(p.find_enough, body_count_);
-    system_.elastic.linearise(model, state_.from, damping_times_.texels, state_.clock);
+    system_.elastic.linearise(model, state_.from, damping_times_.texels, state_.tries);
     system_.begin_bodies(state_.from);
     run(p.sum_motions, chunk_count_);
     run(p.follow_rotation, chunk_count_);

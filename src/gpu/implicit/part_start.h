@@ -23,8 +23,7 @@ public:
     /// @param state, system which it writes, and which have to live as long, as have
     /// @param pairs those of bodies that touch each other; null: they do not
     /// @pre the system's capacity has a pair for each body, or there are no colliders
-    PartStart(const Model& model, const StepState& state, const StepSystem& system,
-              PairRows* pairs = nullptr);
+    PartStart(const Model& model, StepState& state, const StepSystem& system, PairRows* pairs = nullptr);
 
     /// After StepSystem::grow, or PairRows::grow.
     void bind_buffers() const;
@@ -54,8 +53,9 @@ private:
         bool has_planes;
     };
     void run(const gl::Program& program, std::uint32_t groups) const;
+    void run_always(const gl::Program& program, std::uint32_t groups) const;
 
-    const StepState& state_;
+    StepState& state_;
     const StepSystem& system_;
     PairRows* pairs_;
     std::uint32_t node_count_, body_count_, chunk_count_;

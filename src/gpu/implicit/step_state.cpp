@@ -7,7 +7,6 @@ namespace gelatin::gpu {
 StepState::StepState(const Model& model, const ContactSurface& surface)
     : from(model.positions, model.velocities),
       to(model.positions, model.velocities),
-      clock(std::vector<StepClock>(1)),
       paces(model.objects.size(), gl::TexelFormat::rgba32f),
       goals(model.positions.size(), gl::TexelFormat::rgba32f),
       held_changes(model.positions.size(), gl::TexelFormat::rgba32f),
@@ -25,7 +24,7 @@ StepState::StepState(const Model& model, const ContactSurface& surface)
 }
 
 void StepState::bind(const gl::Program& program) const {
-    program.bind_declared("Clock", clock);
+    tries.bind(program);
     paces.bind(program, "Paces", "paces");
     goals.bind(program, "Goals", "goals");
     program.bind_declared("HeldChanges", held_changes.values);

@@ -7,6 +7,7 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/implicit/step_buffers.h"
+#include "gpu/implicit/tries.h"
 #include "gpu/node_buffers.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
@@ -22,8 +23,8 @@ public:
     /// What the program's source names; but for what is bound to it by another name.
     void bind(const gl::Program& program) const;
 
-    NodeBuffers from, to;         ///< where a part begins, and ends
-    gl::Buffer<StepClock> clock;  ///< one; block Clock, clock[0]
+    NodeBuffers from, to;  ///< where a part begins, and ends
+    Tries tries;
     StepBuffer<BodyPace> paces;   ///< by object: Paces, paces
     StepBuffer<glm::vec4> goals;  ///< where handles have held nodes at the end of the step [m]: Goals, goals
     /// By how much velocities of held nodes have changed since the step before [m/s]: HeldChanges. By node.

@@ -3,13 +3,23 @@
 #include <cassert>
 #include <numeric>
 
+#include "gl/context.h"
 #include "model/shared_constants.h"
 
 namespace gelatin::gpu {
 namespace {
 
+// Of a round its islands, and its chunks; its iterations follow.
+constexpr std::uint32_t kArgumentsOfRound = 2;
+
 void bind_positions(const gl::Program& program, const NodeBuffers& at) {
     program.bind_declared("positions", at.position_texels);
+}
+
+// Of a work group that has an island to itself (island_lanes.glsl).
+gl::Program island_program(const char* file) {
+    const bool is_software = gl::Context::current().device().is_software;
+    return gl::Program::compute(file, is_software ? gl::Defines{"LANES 16"} : gl::Defines{});
 }
 
 }  // namespace
@@ -33,21 +43,23 @@ std::vector<const gl::Program*> StepSystem::Programs::all() const {
 }
 
 StepSystem::RowPrograms::RowPrograms()
-    : begin(gl::Program::compute("sim/implicit/begin_rows.comp")),
+    : begin(island_program("sim/implicit/begin_rows.comp")),
       base(gl::Program::compute("sim/implicit/find_base.comp")),
-      newton(gl::Program::compute("sim/implicit/rigid_newton.comp")),
+      newton(island_program("sim/implicit/rigid_newton.comp")),
       move(gl::Program::compute("sim/implicit/move_bodies.comp")),
-      linearise(gl::Program::compute("sim/implicit/linearise_rows.comp")),
+      linearise(island_program("sim/implicit/linearise_rows.comp")),
       begin_again(gl::Program::compute("sim/implicit/solve_begin.comp", {"ROWS"})),
       sum_step(gl::Program::compute("sim/implicit/sum_step.comp")),
-      line_search(gl::Program::compute("sim/implicit/line_search.comp")) {}
+      line_search(island_program("sim/implicit/line_search.comp")) {}
 
 std::vector<const gl::Program*> StepSystem::RowPrograms::all() const {
     return {&begin, &base, &newton, &move, &linearise, &begin_again, &sum_step, &line_search};
 }
 
-StepSystem::StepSystem(const Model& model, const RowCapacity& capacity, std::uint32_t small_chunks)
+StepSystem::StepSystem(const Model& model, Tries& tries, const RowCapacity& capacity,
+                       std::uint32_t small_chunks)
     : elastic(model),
+      tries_(&tries),
       buffers_(model, capacity, small_chunks),
       programs_(capacity.rows > 0 ? gl::Defines{"ROWS"} : gl::Defines{}),
       capacity_(capacity) {
@@ -59,6 +71,7 @@ StepSystem::StepSystem(const Model& model, const RowCapacity& capacity, std::uin
     std::iota(alone.begin(), alone.end(), 0u);
     set_rows({}, alone);
     bind_buffers();
+    set_iterations(iterations_);
 }
 
 // What never changes.
@@ -96,9 +109,23 @@ void StepSystem::set_rows(std::span<const StepRow> rows, std::span<const std::ui
     buffers_.set_rows(rows, islands_of_bodies);
 }
 
+// Even, so that states end where they began; the last one does nothing then.
+std::uint32_t StepSystem::iterations_of_round() const {
+    const int most = rows_ ? iterations_ : 2 * iterations_;
+    return static_cast<std::uint32_t>(most + most % 2);
+}
+
+void StepSystem::set_iterations(int iterations) {
+    iterations_ = iterations;
+    const std::size_t arguments = kArgumentsOfRound + iterations_of_round() + 1;
+    rounds_ = gl::Buffer<std::uint32_t>(4 * arguments * (contact_tuning::kMostLinearisations + 1));
+    for (const gl::Program* program : {&programs_.start, &programs_.direction})
+        program->bind("Rounds", rounds_);
+    if (rows_) rows_->line_search.bind("Rounds", rounds_);
+}
+
 void StepSystem::run(const gl::Program& program, std::uint32_t groups) const {
-    program.dispatch_groups(groups);
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+    tries_->run(Tries::Where::makes_part, program, groups);
 }
 
 // With what is in base_sums.
@@ -108,49 +135,61 @@ void StepSystem::run_newton(float tolerance) const {
     if (buffers_.has_large_islands()) run(rows_->move, buffers_.chunk_count);
 }
 
-// A linearisation and its conjugate gradients. @param turn of states @return the next
-std::uint32_t StepSystem::run_round(bool is_first, int count, std::uint32_t turn) const {
-    const std::uint32_t chunks = buffers_.chunk_count, islands = buffers_.object_count;
-    const auto run_at_turn = [&](const gl::Program& program, std::uint32_t groups) {
+// A linearisation and its conjugate gradients.
+void StepSystem::run_round(std::uint32_t round) const {
+    const std::uint32_t count = iterations_of_round(), length = kArgumentsOfRound + count + 1;
+    const std::uint32_t begin = round * length, first_iteration = begin + kArgumentsOfRound;
+    const auto set = [&](const gl::Program& program, std::uint32_t turn, std::uint32_t next_iteration) {
         program.set("turn", turn);
-        program.set("is_first", is_first ? 1u : 0u);
-        run(program, groups);
+        program.set("is_first", round == 0 ? 1u : 0u);
+        program.set("next_iteration", next_iteration);
+        program.set("next_round", begin + length);
     };
-    if (rows_) run_at_turn(rows_->linearise, islands);
-    run_at_turn(is_first ? programs_.begin : rows_->begin_again, chunks);
-    run_at_turn(programs_.start, islands);
-    run_at_turn(programs_.first_direction, chunks);
-    for (int k = 0; k < count; ++k) {
-        for (const gl::Program* program : {&programs_.product, &programs_.residual, &programs_.direction})
-            run_at_turn(*program, chunks);
-        turn = 1 - turn;
+    const auto run_at = [&](const gl::Program& program, std::uint32_t arguments) {
+        program.dispatch_indirect(rounds_.id(), arguments * sizeof(Dispatch));
+        gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
+    };
+    // The first round is not asked for.
+    const auto run_of_round = [&](const gl::Program& program, bool is_of_islands) {
+        set(program, 0, first_iteration);
+        if (round > 0) return run_at(program, begin + (is_of_islands ? 0 : 1));
+        run(program, is_of_islands ? buffers_.object_count : buffers_.chunk_count);
+    };
+    if (rows_) run_of_round(rows_->linearise, true);
+    run_of_round(round == 0 ? programs_.begin : rows_->begin_again, false);
+    run_of_round(programs_.start, true);
+    set(programs_.first_direction, 0, first_iteration);
+    run_at(programs_.first_direction, first_iteration);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        for (const gl::Program* program : {&programs_.product, &programs_.residual, &programs_.direction}) {
+            set(*program, k % 2, first_iteration + k + 1);
+            run_at(*program, first_iteration + k);
+        }
     }
-    if (rows_) {
-        run_at_turn(rows_->sum_step, chunks);
-        run_at_turn(rows_->line_search, islands);
-    }
-    return turn;
+    if (!rows_) return;
+    set(rows_->sum_step, 0, first_iteration);
+    run_at(rows_->sum_step, first_iteration);
+    run_of_round(rows_->line_search, true);
 }
 
 void StepSystem::begin_bodies(const NodeBuffers& at) const {
     for (const gl::Program* program : {&programs_.sums, &programs_.bodies}) bind_positions(*program, at);
     run(programs_.sums, buffers_.chunk_count);
-    programs_.bodies.dispatch(buffers_.object_count);
-    gl::barrier(gl::Barrier::texture_fetch);
+    run(programs_.bodies, (buffers_.object_count + 63) / 64);
 }
 
-void StepSystem::solve_large_islands() const {
+void StepSystem::solve_large_islands() {
+    gl::barrier(gl::Barrier::buffer_update);
+    rounds_.fill(0);
     // Islands without rows go on in the second round.
-    std::uint32_t turn = 0;
     const std::uint32_t rounds = rows_ ? contact_tuning::kMostLinearisations : 1;
-    for (std::uint32_t round = 0; round < rounds; ++round)
-        turn = run_round(round == 0, rows_ ? iterations : 2 * iterations, turn);
+    for (std::uint32_t round = 0; round < rounds; ++round) run_round(round);
     run(programs_.finish, buffers_.chunk_count);
 }
 
-void StepSystem::solve(const NodeBuffers& at) const {
+void StepSystem::solve(const NodeBuffers& at) {
     for (const gl::Program* program : programs_.all()) bind_positions(*program, at);
-    programs_.direction.set("most_iterations", static_cast<std::uint32_t>(iterations));
+    programs_.direction.set("most_iterations", static_cast<std::uint32_t>(iterations_));
     if (rows_) {
         for (const gl::Program* program : rows_->all()) bind_positions(*program, at);
         run(rows_->begin, buffers_.object_count);
@@ -159,7 +198,7 @@ void StepSystem::solve(const NodeBuffers& at) const {
     }
     if (small_islands_) {
         bind_positions(*small_islands_, at);
-        small_islands_->set("most_iterations", static_cast<std::uint32_t>(iterations));
+        small_islands_->set("most_iterations", static_cast<std::uint32_t>(iterations_));
         run(*small_islands_, buffers_.object_count);
     }
     if (buffers_.has_large_islands()) solve_large_islands();

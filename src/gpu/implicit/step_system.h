@@ -10,6 +10,7 @@
 #include "gl/program.h"
 #include "gpu/implicit/elastic_system.h"
 #include "gpu/implicit/step_buffers.h"
+#include "gpu/implicit/tries.h"
 #include "gpu/node_buffers.h"
 #include "model/model.h"
 #include "model/shared_constants.h"
@@ -30,8 +31,9 @@ public:
     /// @param capacity without any, nothing is spent on rows
     /// @param small_chunks of nodes that a small island has at most; 0: none is small
     /// @pre small_chunks is at most packing::kChunksOfSmallIsland
-    explicit StepSystem(const Model& model, const RowCapacity& capacity = {},
-                        std::uint32_t small_chunks = packing::kChunksOfSmallIsland);
+    /// @param tries has to live as long; it solves where these make a part
+    StepSystem(const Model& model, Tries& tries, const RowCapacity& capacity = {},
+               std::uint32_t small_chunks = packing::kChunksOfSmallIsland);
 
     ElasticSystem elastic;
     /// m / h^2 (y - x) + f [N]; w: m / h^2 [N/m], 0 where a node is held; [nodes]
@@ -45,7 +47,8 @@ public:
     /// Makes room for other rows than before, which are lost. All programs that StepBuffers::bind was called
     /// for have to be bound again. @pre there was room for some
     void grow(const RowCapacity& capacity);
-    int iterations = 10;  ///< of conjugate gradients for each linearisation, at most; twice without rows
+    /// Of conjugate gradients for each linearisation, at most; twice without rows. 10 at first.
+    void set_iterations(int iterations);
 
     /// @param rows of objects; packing::kNone: a plane
     /// @param islands_of_bodies of each body the least one of its island; packing::kNone: it sleeps, all of
@@ -57,7 +60,7 @@ public:
     void begin_bodies(const NodeBuffers& at) const;
     /// After it. @param at the same; elastic.linearise() was called with it
     /// Ends with the barrier for who reads displacements as storage.
-    void solve(const NodeBuffers& at) const;
+    void solve(const NodeBuffers& at);
 
     /// What all its programs share, for those that make its input, and use what it has found.
     const StepBuffers& buffers() const { return buffers_; }
@@ -81,17 +84,21 @@ private:
         gl::Program begin, base, newton, move, linearise, begin_again, sum_step, line_search;
     };
     void bind_buffers() const;
+    std::uint32_t iterations_of_round() const;
     void run(const gl::Program& program, std::uint32_t groups) const;
     void run_newton(float tolerance) const;
-    void solve_large_islands() const;
-    std::uint32_t run_round(bool is_first, int count, std::uint32_t turn) const;
+    void solve_large_islands();
+    void run_round(std::uint32_t round) const;
 
+    Tries* tries_;
     StepBuffers buffers_;
     Programs programs_;
     std::optional<RowPrograms> rows_;
     std::optional<gl::Program> small_islands_;  // if any may be small
     RowCapacity capacity_;
-    std::uint32_t row_count_ = 0;  // of those that the host has set
+    int iterations_ = 10;
+    gl::Buffer<std::uint32_t> rounds_;  // Dispatch: large_islands.glsl
+    std::uint32_t row_count_ = 0;       // of those that the host has set
 };
 
 }  // namespace gelatin::gpu

@@ -96,7 +96,7 @@ public:
           buffers_(model_),
           surface_(make_contact_surface(model_, CollisionSettings{.restitution = at.restitution})),
           state_(model_, surface_),
-          system_(model_, capacity_for(at)),
+          system_(model_, state_.tries, capacity_for(at)),
           end_(model_, state_, system_, at.contacts ? &surface_ : nullptr),
           reference_(at.model, at.restitution, at.contacts),
           pulls_(model_.node_count()) {
@@ -108,7 +108,7 @@ public:
         if (at.is_pulled) hold();
         for (int k = 0; k < at.own_rows; ++k)
             reference_.own_rows.push_back(own_row(static_cast<std::uint32_t>(k)));
-        system_.iterations = 0;
+        system_.set_iterations(0);
         clock_.size = clock_.left = static_cast<float>(kStepSize);
         clock_.goes_on = 1;
         std::vector<glm::vec4> poison = poisoned(model_.node_count());
@@ -255,13 +255,13 @@ private:
         }
         state_.paces.values.upload(paces);
         clock_.step = static_cast<float>(step);
-        state_.clock.upload(std::vector<StepClock>{clock_});
+        state_.tries.set_clock(clock_);
         std::vector<float> times;
         for (const glm::vec4& velocity : model_.velocities) times.push_back(velocity.w);
         const gl::TexelTable<float> damping_times(times, gl::TexelFormat::r32f);
         // Where there is no contact, as the beginning of a part leaves it.
         state_.plane_notes.upload(std::vector<PlaneMemory>(state_.plane_notes.size()));
-        system_.elastic.linearise(buffers_, state_.from, damping_times.texels(), state_.clock);
+        system_.elastic.linearise(buffers_, state_.from, damping_times.texels(), state_.tries);
         system_.loads().upload(loads);
         system_.displacements().upload(std::vector<glm::vec4>(loads.size(), glm::vec4(0.0f)));
         system_.set_rows(rows, reference_.islands.of_bodies);
@@ -276,7 +276,7 @@ private:
         clock_.has_past = reference_.has_past ? 1 : 0;
         clock_.goes_on = 1;
         clock_.is_over = 0;
-        state_.clock.upload(std::vector<StepClock>{clock_});
+        state_.tries.set_clock(clock_);
     }
 
     // With contacts the reference's guard moves nodes.
@@ -292,7 +292,7 @@ private:
     }
 
     void compare_clock(Outcome outcome, double step, double shortest) {
-        const StepClock now = read(state_.clock)[0];
+        const StepClock now = state_.tries.clock();
         const bool is_made = outcome == Outcome::made || outcome == Outcome::stood_still;
         error_.fail_if(now.goes_on != (is_made ? 1u : 0u) || now.made != clock_.made + (is_made ? 1u : 0u));
         error_.fail_if(now.damps != (outcome == Outcome::damped ? 1u : 0u));

@@ -113,19 +113,17 @@ public:
         do {
             upload_pairs();
             clock.goes_on = 1;
-            state_.clock.upload(std::vector{clock});
+            state_.tries.set_clock(clock);
             guard_.run(buffers_);
             if (++result.runs == 1) result.clipped = downloaded(guard_.found())[0].clipped;
             const bool has_lost = finder_.find_lost(downloaded(state_.to.positions)) || wishes_.loses_always;
             upload_counts(has_lost);
-            guard_.decide();
-            clock = downloaded(state_.clock)[0];
+            guard_.decide(tuning::kMostGuards);
+            clock = state_.tries.clock();
             follow_paths();
-        } while (clock.goes_on != 0 && result.runs < tuning::kMostGuards);
-        guard_.close();
-        result.clock = downloaded(state_.clock)[0];
+        } while (clock.guards != 0);
+        result.clock = clock;
         const GuardState found = downloaded(guard_.found())[0];
-        result.is_done = found.is_done != 0;
         result.is_changed = found.is_changed != 0;
         result.is_given_up = found.is_given_up != 0;
         result.ends = doubles(downloaded(state_.to.positions));

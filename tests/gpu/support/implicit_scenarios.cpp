@@ -36,14 +36,14 @@ constexpr float kInverseStep = 240.0f;  // [1/s]
 // A part of that length, and damping times of nodes as they are in the model.
 class ElasticStart {
 public:
-    explicit ElasticStart(const Model& model)
-        : buffers_(model), nodes(model.positions, model.velocities), clock_(std::vector{clock_of_part()}) {
+    explicit ElasticStart(const Model& model) : buffers_(model), nodes(model.positions, model.velocities) {
+        tries.set_clock(clock_of_part());
         std::vector<float> times;
         for (const glm::vec4& v : model.velocities) times.push_back(v.w);
         damping_times_ = {times, gl::TexelFormat::r32f};
     }
-    void linearise(const gpu::ElasticSystem& system) const {
-        system.linearise(buffers_, nodes, damping_times_.texels(), clock_);
+    void linearise(const gpu::ElasticSystem& system) {
+        system.linearise(buffers_, nodes, damping_times_.texels(), tries);
     }
 
 private:
@@ -57,9 +57,9 @@ private:
 
 public:
     gpu::NodeBuffers nodes;
+    gpu::Tries tries;
 
 private:
-    gl::Buffer<StepClock> clock_;
     gl::TexelTable<float> damping_times_;
 };
 
@@ -74,7 +74,7 @@ std::vector<glm::dvec3> xyz_of(const std::vector<glm::vec4>& values) {
 }
 
 ElasticResult elastic_on_gpu(const Model& model) {
-    const ElasticStart start(model);
+    ElasticStart start(model);
     gpu::ElasticSystem system(model);
     start.linearise(system);
     std::vector<glm::vec4> values;
@@ -205,11 +205,11 @@ StepRow converted_row(const cpu::ContactRow<double>& row) {
 
 SolveResult solve_on_gpu(const SolveCase& at) {
     const Model& model = *at.model;
-    const ElasticStart start(model);
+    ElasticStart start(model);
     const std::size_t most = at.rows.empty() ? 0 : at.rows.size() + 3;
-    gpu::StepSystem system(model, {most, most}, at.small_chunks);
+    gpu::StepSystem system(model, start.tries, {most, most}, at.small_chunks);
     system.enough().upload(std::vector<float>(model.objects.size(), at.enough));
-    system.iterations = at.iterations;
+    system.set_iterations(at.iterations);
     std::vector<StepRow> rows;
     for (const cpu::ContactRow<double>& row : at.rows) rows.push_back(converted_row(row));
     start.linearise(system.elastic);

@@ -302,7 +302,7 @@ double given_up_error() {
 double close_error() {
     Wishes wishes = wish(blocks_beside(), by({{0.05, 0, 0}}));
     const Guarded done = guard_on_gpu(wishes);
-    if (done.clock.goes_on == 0 || done.clock.guards != 0 || done.is_done) return error_if(true);
+    if (done.clock.goes_on == 0 || done.clock.guards != 0) return error_if(true);
     wishes.is_long = wishes.loses_always = true;
     const Guarded halved = guard_on_gpu(wishes);
     if (halved.clock.goes_on != 0 || halved.is_given_up || halved.clock.step != 0.5f * halved.clock.size)

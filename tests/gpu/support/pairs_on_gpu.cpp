@@ -58,7 +58,7 @@ void PairsOnGpu::set_clock(std::uint32_t guards, bool goes_on) {
     clock.step = case_.is_shortest ? clock.size / 256.0f : clock.size;
     clock.guards = guards;
     clock.goes_on = goes_on ? 1 : 0;
-    state_.clock.upload(std::vector{clock});
+    state_.tries.set_clock(clock);
 }
 
 FoundPairs PairsOnGpu::run_once(std::uint32_t guards) {

@@ -114,7 +114,7 @@ StartOnGpu::StartOnGpu(const StartCase& at, const StartInputs& inputs, std::vect
     : buffers(*at.model),
       surface(make_contact_surface(*at.model, {})),
       state(*at.model, surface),
-      system(*at.model,
+      system(*at.model, state.tries,
              at.has_pairs
                  ? gpu::RowCapacity{at.capacity, at.model->body_count() + pair_capacity(*at.model).slots}
              : at.model->colliders.empty() ? gpu::RowCapacity{}
@@ -131,7 +131,7 @@ StartOnGpu::StartOnGpu(const StartCase& at, const StartInputs& inputs, std::vect
       near_(std::move(near)) {
     if (!model_.loads.empty()) loads_.emplace(model_).run(state.from);
     buffers.pulls.set_pulls(inputs.pulls);
-    system.iterations = kStartIterations;
+    system.set_iterations(kStartIterations);
     std::vector<glm::vec4> accelerations;
     for (std::uint32_t n = 0; n < model_.node_count() && at.last_step > 0.0f; ++n)
         accelerations.push_back((model_.velocities[n] - inputs.earlier_velocities[n]) / at.last_step);
@@ -147,7 +147,7 @@ StartOnGpu::StartOnGpu(const StartCase& at, const StartInputs& inputs, std::vect
     StepClock clock{};
     clock.last_step = at.last_step;
     clock.parts = 1;
-    state.clock.upload(std::vector{clock});
+    state.tries.set_clock(clock);
     // What is left of a solve before.
     system.loads().upload(std::vector<glm::vec4>(model_.node_count(), glm::vec4(1.0f, 2.0f, 3.0f, 1e3f)));
     start.begin_step(state.from, static_cast<double>(at.size), at.divides);
@@ -158,7 +158,7 @@ StartOnGpu::StartOnGpu(const StartCase& at, const StartInputs& inputs, std::vect
         clock.longest = 0.6f * at.left;
         clock.made = clock.begun = 1;
     }
-    state.clock.upload(std::vector{clock});
+    state.tries.set_clock(clock);
 }
 
 void StartOnGpu::upload(const NearPairs& near) {
@@ -180,6 +180,8 @@ void StartOnGpu::upload(const NearPairs& near) {
     counts.pairs = static_cast<std::uint32_t>(all.size());
     counts.fastest = near.fastest;
     pairs->counts.upload(std::vector{counts});
+    state.tries.set_count(pair_stages::kNearPairs, counts.pairs);
+    state.tries.set_count(pair_stages::kSlotGroups, counts.slots, 1);
     pairs->slot_starts.values.upload(starts);
     pairs->slots.values.upload(slots);
     pairs->pairs.values.upload(all);

@@ -27,7 +27,7 @@ public:
     /// @param near of the tries of the reference, which take their turns
     StartOnGpu(const StartCase& at, const StartInputs& inputs, std::vector<NearPairs> near = {});
 
-    StepClock read_clock() const { return downloaded(state.clock)[0]; }
+    StepClock read_clock() const { return state.tries.clock(); }
     /// @return whether what is given up has left all as it was
     bool run();
     /// Solves, too.

@@ -36,7 +36,7 @@ double over_error(const StartCase& at) {
     gpu.run();
     StepClock clock = gpu.read_clock();
     clock.is_over = 1;
-    gpu.state.clock.upload(std::vector{clock});
+    gpu.state.tries.set_clock(clock);
     gpu.run();
     return error_if(gpu.read_clock().tries != clock.tries || gpu.read_clock().goes_on != 0);
 }
