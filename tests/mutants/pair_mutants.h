@@ -34,7 +34,7 @@ inline constexpr Mutant kFindPairsMutants[] = {
     {"edges_meet_themselves", "sim/implicit/test_leaf_pairs.comp", "second <= element.number", "false"},
     {"nodes_meet_their_faces", "sim/implicit/test_leaf_pairs.comp",
      "!any(equal(nodes, uvec3(element.nodes.x)))", "true"},
-    {"elements_do_not_move", "sim/implicit/test_leaf_pairs.comp", "frame.motion - other.motion", "vec3(0.0)"},
+    {"elements_do_not_move", "sim/implicit/test_leaf_pairs.comp", "motion_of(pair.object) - motion_of(pair.other)", "vec3(0.0)"},
     {"ends_are_not_tested", "sim/implicit/test_leaf_pairs.comp",
      "&& separation(element, nodes, at.normal) > wanted", ""},
     {"rounding_of_the_extent_alone", "sim/implicit/test_leaf_pairs.comp", "+ 4.0 * reach", ""},
@@ -44,8 +44,6 @@ inline constexpr Mutant kFindPairsMutants[] = {
     {"ends_keep_all", "sim/implicit/find_lost.comp", "&& keeps(path_ends, tet, inverse_, rotation)", ""},
     {"lost_boxes_have_a_corner_each", "sim/implicit/find_lost.comp", "k < 4; ++k", "k < 1; ++k"},
     {"what_grew_is_forgotten", "sim/implicit/find_lost.comp", "if (grew) counts", "if (false) counts"},
-    {"what_is_lost_is_forgotten_by_the_guard", "sim/implicit/find_rotations.comp", "clock[0].guards != 0u",
-     "false"},
 };
 
 }  // namespace gelatin::test

@@ -3,6 +3,7 @@
 // CPU twin: gelatin::cpu::Restitution. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kLanes = 256u;
 #include "layouts/dispatch.glsl"
+#include "layouts/tries.glsl"
 #include "layouts/step_end.glsl"
 #include "sim/implicit/clock.glsl"
 #include "sim/implicit/group_counts.glsl"
@@ -72,7 +73,7 @@ double energy_of(uvec2 objects, bool at_end) {
 
 // What is known, and what presses for the first time and fast enough. @return how many
 uint find_meetings(uint known_count) {
-    uint lane = gl_LocalInvocationID.x, count = known_count, pair_count = dispatches[0].count;
+    uint lane = gl_LocalInvocationID.x, count = known_count, pair_count = dispatches[kPressedPairs].count;
     for (uint e = lane; e < known_count; e += kLanes) {
         copy(known(e), changing(e));
         meetings[changing(e) + kMetPress] = 0.0LF;

@@ -255,6 +255,7 @@ private:
         }
         state_.paces.values.upload(paces);
         clock_.step = static_cast<float>(step);
+        clock_.goes_on = 1;
         state_.tries.set_clock(clock_);
         std::vector<float> times;
         for (const glm::vec4& velocity : model_.velocities) times.push_back(velocity.w);
@@ -274,7 +275,6 @@ private:
         clock_.last_step = static_cast<float>(reference_.scheme.last_step());
         clock_.damps = damps ? 1 : 0;
         clock_.has_past = reference_.has_past ? 1 : 0;
-        clock_.goes_on = 1;
         clock_.is_over = 0;
         state_.tries.set_clock(clock_);
     }

@@ -244,7 +244,7 @@ double repeat_error(const StartCase& at) {
                     !is_same(a.couplings, b.couplings));
 }
 
-// Without places the try is given up, no island is left, and rows are not written.
+// Without places the try is given up, and rows are not written.
 double overflow_error(StartCase at, bool pairs_are_full) {
     const auto [inputs, expected] = part_start_reference(at);
     if (!pairs_are_full) at.capacity = expected.rows.size() - 1;
@@ -281,6 +281,7 @@ double guard_error(const StartCase& at) {
     gpu.state.tries.set_clock(clock);
     gpu.start.predict(gpu.buffers, nullptr);
     gpu.pairs->counts.upload(std::vector{PairCounts{}});
+    gl::barrier(gl::Barrier::buffer_update);
     gpu.state.tries.set_count(pair_stages::kNearPairs, 0);
     gpu.start.find_rows(gpu.buffers, nullptr);
     gpu.start.linearise(gpu.buffers, nullptr);

@@ -180,6 +180,7 @@ void StartOnGpu::upload(const NearPairs& near) {
     counts.pairs = static_cast<std::uint32_t>(all.size());
     counts.fastest = near.fastest;
     pairs->counts.upload(std::vector{counts});
+    if (read_clock().goes_on == 0) return;  // nor would the device
     state.tries.set_count(pair_stages::kNearPairs, counts.pairs);
     state.tries.set_count(pair_stages::kSlotGroups, counts.slots, 1);
     pairs->slot_starts.values.upload(starts);
