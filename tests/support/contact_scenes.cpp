@@ -48,6 +48,24 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks, const
         pack_bodies(bodies, solid_colliders(scene), gravity, make_collider_surfaces(scene)));
 }
 
+ViolentScene violent_scene(unsigned seed) {
+    RandomMaker random(seed);
+    std::vector<Block> blocks = violent_blocks(random, 4);
+    for (Block& block : blocks) {
+        block.poisson_ratio = random.integer(0, 1) == 0 ? 0.25 : 0.4;
+        if (random.integer(0, 2) == 0) block.model = MaterialModel::neo_hookean;
+    }
+    ColliderDescription ground;
+    ground.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.1};
+    if (random.integer(0, 1) == 0) {
+        ground.shape = BoxShape{{4.0, 0.2, 4.0}};
+        ground.position = {0.0, -0.2, 0.0};
+    }
+    // Drawn in this order.
+    return {make_blocks(blocks, {0, -9.81, 0}, {ground}), kFrame / random.integer(1, 16),
+            random.integer(1, 60), random.integer(0, 1) == 0};
+}
+
 template <class Real>
 void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, double step) {
     solver.advance({step, handle_motions(model.handles, number * step, step)});

@@ -31,6 +31,15 @@ struct Block {
 /// @param most_bodies at least 2
 std::vector<Block> violent_blocks(RandomMaker& random, int most_bodies);
 
+/// Such bodies of all materials above a plane or a box, and how their steps are made.
+struct ViolentScene {
+    std::shared_ptr<const Model> model;
+    double step;  ///< [s]
+    int iterations;
+    bool divides_steps;
+};
+ViolentScene violent_scene(unsigned seed);
+
 /// @param colliders planes are solid, others surfaces
 std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
                                          const glm::dvec3& gravity = {0, 0, 0},

@@ -15,7 +15,6 @@
 namespace gelatin {
 namespace {
 
-using test::Block;
 using test::kFrame;
 using test::make_device_solver;
 using test::scattered;
@@ -33,36 +32,21 @@ SharedModel make_stack() {
 class BodyContactsTest : public test::GlTest {};
 class BodyContactsLong : public test::GlTest {};
 
-// Violent scenes of all materials, above a plane or a box. @param is_short_of_room at first
+// @param is_short_of_room at first
 void fuzz(unsigned first, unsigned count, int steps, bool is_short_of_room) {
     for (unsigned seed = first; seed < first + count; ++seed) {
-        test::RandomMaker random(seed);
-        std::vector<Block> blocks = test::violent_blocks(random, 4);
-        for (Block& block : blocks) {
-            block.poisson_ratio = random.integer(0, 1) == 0 ? 0.25 : 0.4;
-            if (random.integer(0, 2) == 0) block.model = MaterialModel::neo_hookean;
-        }
-        ColliderDescription ground;
-        ground.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.1};
-        if (random.integer(0, 1) == 0) {
-            ground.shape = BoxShape{{4.0, 0.2, 4.0}};
-            ground.position = {0.0, -0.2, 0.0};
-        }
-        const SharedModel model = test::make_blocks(blocks, {0, -9.81, 0}, {ground});
-        test::DeviceContacts settings;
-        const int substeps = random.integer(1, 16);
-        settings.iterations = random.integer(1, 60);
-        settings.divides_steps = random.integer(0, 1) == 0;
+        const test::ViolentScene scene = test::violent_scene(seed);
+        test::DeviceContacts settings{.iterations = scene.iterations, .divides_steps = scene.divides_steps};
         if (is_short_of_room) settings.room = gpu::PairCapacity{1, 8, 8, 40};
-        gpu::ImplicitSolver solver = make_device_solver(model, settings);
+        gpu::ImplicitSolver solver = make_device_solver(scene.model, settings);
         const auto energy_of = [&] {
             const State state = solver.read_state();
-            return test::sum_bodies<float>(*model, {state.positions, state.velocities});
+            return test::sum_bodies<float>(*scene.model, {state.positions, state.velocities});
         };
         const test::BodySums energy = energy_of();
         for (int step = 0; step < steps; ++step) {
-            solver.advance({kFrame / substeps});
-            ASSERT_EQ(test::count_overlaps(*model,
+            solver.advance({scene.step});
+            ASSERT_EQ(test::count_overlaps(*scene.model,
                                            std::span<const cpu::Vec4<float>>(solver.read_state().positions)),
                       0u)
                 << "scene " << seed << ", step " << step;
