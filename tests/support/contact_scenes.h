@@ -25,6 +25,7 @@ struct Block {
     double poisson_ratio = 0.25;
     MaterialModel model = MaterialModel::mass_spring;
     std::optional<double> friction = {};  // of its material
+    std::vector<HandleDescription> handles{};
 };
 
 /// Blocks and thin plates above each other, that fly in all directions, soft and hard.
@@ -59,8 +60,7 @@ cpu::SystemSolver<Real> make_solver(const std::shared_ptr<const Model>& model, d
 }
 
 /// Makes a step of `step` [s], with what handles and colliders do then. @param number of the step, from 0
-template <class Real>
-void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, double step = kFrame);
+void advance(Solver& solver, const Model& model, int number, double step = kFrame);
 
 /// Of all bodies.
 struct BodySums {

@@ -100,6 +100,7 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
 
 void ImplicitSolver::write_state(const State& state) {
     GpuSolver::write_state(state);
+    copy_nodes(current_, state_.from);  // whose velocities are before handles change them
     goes_on_ = is_next_ = false;
     may_be_lost_ = true;
     size_ = 0.0;
@@ -197,6 +198,7 @@ void ImplicitSolver::match_shapes(double elapsed) {
 // And begins to ask whether they were enough.
 void ImplicitSolver::make_tries() {
     for (std::uint32_t k = 0; k < tries_; ++k) make_try();
+    if (!model_->handle_nodes.empty()) start_.end_step(previous_);
     copy_nodes(state_.from, current_);
     clocks_.begin(state_.clock.id(), sizeof(StepClock));
 }

@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <glm/geometric.hpp>
 #include <memory>
 
 #include "gpu/implicit/implicit_solver.h"
 #include "gpu/support/body_contact_runs.h"
+#include "model/drive/handles.h"
 #include "support/contact_scenes.h"
 #include "support/gl_fixture.h"
 #include "support/overlaps.h"
@@ -122,6 +125,69 @@ TEST_F(BodyContactsTest, ForcesAreWeights) {
     glm::dvec3 on_nodes(0.0);
     for (const glm::dvec3& force : forces.normal) on_nodes += force;
     EXPECT_NEAR(on_nodes.y, weight, 0.02 * weight);
+}
+
+// [m]
+double farthest_move(const State& from, const State& to) {
+    double most = 0.0;
+    for (std::size_t n = 0; n < from.positions.size(); ++n)
+        most = std::max(most, glm::distance(glm::dvec3(from.positions[n]), glm::dvec3(to.positions[n])));
+    return most;
+}
+
+// It waits where a body is in its way, and goes on from there, as on the CPU.
+TEST_F(BodyContactsTest, BlockedHandlesWait) {
+    const SharedModel model = test::blocked_block();
+    const HandleNode& held = model->handle_nodes[0];
+    gpu::ImplicitSolver solver = make_device_solver(model);
+    auto reference = test::make_solver<double>(model);
+    int waiting = 0;
+    for (int frame = 0; frame < 26; ++frame) {
+        test::advance(solver, *model, frame);
+        test::advance(reference, *model, frame);
+        const State state = solver.read_state(), expected = reference.read_state();
+        EXPECT_LT(farthest_move(expected, state), 1e-6) << frame;
+        EXPECT_EQ(test::count_overlaps(*model, std::span<const cpu::Vec4<float>>(state.positions)), 0u);
+        EXPECT_LT(glm::distance(state.velocities[held.node], expected.velocities[held.node]), 1e-5f) << frame;
+        std::vector<HandlePose> poses;
+        for (const Handle& handle : model->handles) poses.push_back(pose_at(handle, (frame + 1) * kFrame));
+        const std::vector<std::uint32_t> held_up = solver.held_up(poses);
+        EXPECT_EQ(held_up, reference.held_up(poses)) << frame;
+        if (held_up.empty()) continue;
+        EXPECT_EQ(held_up, std::vector<std::uint32_t>{0});
+        ++waiting;
+    }
+    EXPECT_GE(waiting, 15);
+    const glm::dvec3 end = pose_at(model->handles[0], 1.0).place(glm::dvec3(held.arm));
+    EXPECT_LT(glm::distance(glm::dvec3(solver.read_state().positions[held.node]), end), 1e-6);
+}
+
+// Also with what handles exert, which depends on how they moved before.
+TEST_F(BodyContactsTest, BlockedHandlesGoOnFromACheckpoint) {
+    const SharedModel model = test::blocked_block();
+    gpu::ImplicitSolver solver = make_device_solver(model), other = make_device_solver(model);
+    int frame = 0;
+    for (; frame < 10; ++frame) test::advance(solver, *model, frame);
+    State state = solver.read_state();
+    state.memory = solver.memory();
+    other.write_state(state);
+    for (; frame < 26; ++frame) {
+        for (gpu::ImplicitSolver* each : {&solver, &other}) test::advance(*each, *model, frame);
+        EXPECT_EQ(other.read_state().positions, solver.read_state().positions) << frame;
+        EXPECT_EQ(other.holding_forces().by_handle, solver.holding_forces().by_handle) << frame;
+    }
+}
+
+// What was set from outside did not come there through what is in between.
+TEST_F(BodyContactsTest, HeldNodesBeginWhereHandlesHaveThem) {
+    const SharedModel model = test::blocked_block(0.5);
+    gpu::ImplicitSolver solver = make_device_solver(model);
+    const State start = solver.read_state();
+    for (int frame = 0; frame < 2; ++frame) test::advance(solver, *model, frame);
+    solver.write_state(start);
+    test::advance(solver, *model, 14);  // below the other block
+    const HandleNode& held = model->handle_nodes[0];
+    EXPECT_NEAR(solver.read_state().positions[held.node].y, start.positions[held.node].y - 0.5f, 1e-6f);
 }
 
 // Of the first body [m].
