@@ -5,12 +5,10 @@
 #include "support/contact_scenes.h"
 #include "support/gl_fixture.h"
 #include "support/overlaps.h"
-#include "support/random_maker.h"
 
 namespace gelatin {
 namespace {
 
-using test::Block;
 using test::kFrame;
 
 class SharedSolverTest : public test::GlTest {};
@@ -93,33 +91,18 @@ TEST_F(SharedSolverTest, RepeatsBitForBitAndStartsAgain) {
     EXPECT_EQ(again.read_state().positions, end.positions);
 }
 
-// Violent scenes of all materials, above a plane or a box.
 void fuzz(unsigned first, unsigned count) {
     for (unsigned seed = first; seed < first + count; ++seed) {
-        test::RandomMaker random(seed);
-        std::vector<Block> blocks = test::violent_blocks(random, 4);
-        for (Block& block : blocks) {
-            block.poisson_ratio = random.integer(0, 1) == 0 ? 0.25 : 0.4;
-            if (random.integer(0, 2) == 0) block.model = MaterialModel::neo_hookean;
-        }
-        ColliderDescription ground;
-        ground.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.1};
-        if (random.integer(0, 1) == 0) {
-            ground.shape = BoxShape{{4.0, 0.2, 4.0}};
-            ground.position = {0.0, -0.2, 0.0};
-        }
-        const auto model = test::make_blocks(blocks, {0, -9.81, 0}, {ground});
-        const int substeps = random.integer(1, 16), iterations = random.integer(1, 60);
-        const bool divides_steps = random.integer(0, 1) == 0;
-        SharedSolver solver = make_solver(model, iterations, divides_steps);
+        const test::ViolentScene scene = test::violent_scene(seed);
+        SharedSolver solver = make_solver(scene.model, scene.iterations, scene.divides_steps);
         const auto energy_of = [&] {
             const State state = solver.read_state();
-            return test::sum_bodies<float>(*model, {state.positions, state.velocities});
+            return test::sum_bodies<float>(*scene.model, {state.positions, state.velocities});
         };
         const test::BodySums energy = energy_of();
         for (int step = 0; step < 15; ++step) {
-            solver.advance({kFrame / substeps});
-            ASSERT_EQ(overlaps_of(*model, solver), 0u) << "scene " << seed << ", step " << step;
+            solver.advance({scene.step});
+            ASSERT_EQ(overlaps_of(*scene.model, solver), 0u) << "scene " << seed << ", step " << step;
             ASSERT_LE(energy_of().sum(), energy.sum() + 0.2 * energy.kinetic)
                 << "scene " << seed << ", step " << step;
         }

@@ -34,6 +34,7 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks, const
         for (glm::dvec3& p : body.mesh.positions) p += block.place;
         body.velocity = block.velocity;
         body.pins = block.pins;
+        body.handles = block.handles;
         body.material.youngs_modulus = block.youngs_modulus;
         body.material.poisson_ratio = block.poisson_ratio;
         body.material.model = block.model;
@@ -48,8 +49,25 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks, const
         pack_bodies(bodies, solid_colliders(scene), gravity, make_collider_surfaces(scene)));
 }
 
-template <class Real>
-void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, double step) {
+ViolentScene violent_scene(unsigned seed) {
+    RandomMaker random(seed);
+    std::vector<Block> blocks = violent_blocks(random, 4);
+    for (Block& block : blocks) {
+        block.poisson_ratio = random.integer(0, 1) == 0 ? 0.25 : 0.4;
+        if (random.integer(0, 2) == 0) block.model = MaterialModel::neo_hookean;
+    }
+    ColliderDescription ground;
+    ground.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.1};
+    if (random.integer(0, 1) == 0) {
+        ground.shape = BoxShape{{4.0, 0.2, 4.0}};
+        ground.position = {0.0, -0.2, 0.0};
+    }
+    // Drawn in this order.
+    return {make_blocks(blocks, {0, -9.81, 0}, {ground}), kFrame / random.integer(1, 16),
+            random.integer(1, 60), random.integer(0, 1) == 0};
+}
+
+void advance(Solver& solver, const Model& model, int number, double step) {
     solver.advance({step, handle_motions(model.handles, number * step, step)});
 }
 
@@ -80,8 +98,6 @@ testing::AssertionResult stays_apart(cpu::CpuSolver<Real>& solver, const Model& 
     return testing::AssertionSuccess();
 }
 
-template void advance<float>(cpu::CpuSolver<float>&, const Model&, int, double);
-template void advance<double>(cpu::CpuSolver<double>&, const Model&, int, double);
 template BodySums sum_bodies<float>(const Model&, const cpu::Nodes<float>&);
 template BodySums sum_bodies<double>(const Model&, const cpu::Nodes<double>&);
 template testing::AssertionResult stays_apart<float>(cpu::CpuSolver<float>&, const Model&, int, double,

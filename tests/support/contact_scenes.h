@@ -25,11 +25,21 @@ struct Block {
     double poisson_ratio = 0.25;
     MaterialModel model = MaterialModel::mass_spring;
     std::optional<double> friction = {};  // of its material
+    std::vector<HandleDescription> handles{};
 };
 
 /// Blocks and thin plates above each other, that fly in all directions, soft and hard.
 /// @param most_bodies at least 2
 std::vector<Block> violent_blocks(RandomMaker& random, int most_bodies);
+
+/// Such bodies of all materials above a plane or a box, and how their steps are made.
+struct ViolentScene {
+    std::shared_ptr<const Model> model;
+    double step;  ///< [s]
+    int iterations;
+    bool divides_steps;
+};
+ViolentScene violent_scene(unsigned seed);
 
 /// @param colliders planes are solid, others surfaces
 std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
@@ -50,8 +60,7 @@ cpu::SystemSolver<Real> make_solver(const std::shared_ptr<const Model>& model, d
 }
 
 /// Makes a step of `step` [s], with what handles and colliders do then. @param number of the step, from 0
-template <class Real>
-void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, double step = kFrame);
+void advance(Solver& solver, const Model& model, int number, double step = kFrame);
 
 /// Of all bodies.
 struct BodySums {

@@ -10,8 +10,7 @@ uniform samplerBuffer given_velocities;  // xyz [m/s]
 uniform uint node_count;
 uniform float size;                // of the step [s]
 uniform uint divides;
-uniform uint is_next;              // 1: nodes are where the last step ended
-uniform uint keeps_held;           // 1: so held ones go on from there
+uniform uint keeps_held;           // 1: held ones go on from where the last step ended
 layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) writeonly buffer Goals { vec4 goals[]; };  // of held nodes [m]
 layout(std430) buffer Positions { vec4 positions[]; };
@@ -41,7 +40,7 @@ void main() {
     if (n == 0u) begin_clock();
     if (n >= node_count) return;
     vec4 x = texelFetch(given_positions, int(n)), v = texelFetch(given_velocities, int(n));
-    bool is_held = x.w == 0.0, was_held = is_next != 0u && positions[n].w == 0.0;
+    bool is_held = x.w == 0.0, was_held = positions[n].w == 0.0;
     held_changes[n] = is_held && was_held ? vec4(v.xyz - velocities[n].xyz, 0.0) : vec4(0.0);
     velocities[n] = v;
     if (is_held) {

@@ -17,9 +17,14 @@
 namespace gelatin::gpu {
 namespace {
 
+PairCapacity room_of(const Model& model, const std::optional<PairCapacity>& wanted) {
+    return wanted ? *wanted : PairCapacity::of(model);
+}
+
 // Contacts with colliders, of nodes on surfaces; those within a body come near one only where it is crushed.
-RowCapacity capacity_of(const Model& model, const std::optional<PairCapacity>& room) {
-    if (room) return BodyContacts::capacity_of(model, *room);
+RowCapacity capacity_of(const Model& model, const CollisionSettings& collision,
+                        const std::optional<PairCapacity>& room) {
+    if (has_contacts(model, collision)) return BodyContacts::capacity_of(model, room_of(model, room));
     if (model.colliders.empty()) return {};
     return {model.colliders.size() * model.surface_parts.nodes.size(), model.body_count()};
 }
@@ -78,12 +83,12 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
       divides_steps_(settings.divides_steps),
       surface_(make_contact_surface(*model_, collision)),
       state_(*model_, surface_),
-      room_(has_contacts(*model_, collision) ? std::optional(room.value_or(PairCapacity::of(*model_)))
-                                             : std::nullopt),
-      system_(*model_, state_.tries, capacity_of(*model_, room_), most_small_chunks()),
-      contacts_(room_ ? std::optional<BodyContacts>(std::in_place, *model_, surface_, state_, system_,
-                                                    collision.self_collision.value_or(true), *room_)
-                      : std::nullopt),
+      system_(*model_, state_.tries, capacity_of(*model_, collision, room), most_small_chunks()),
+      contacts_(has_contacts(*model_, collision)
+                    ? std::optional<BodyContacts>(std::in_place, *model_, surface_, state_, system_,
+                                                  collision.self_collision.value_or(true),
+                                                  room_of(*model_, room))
+                    : std::nullopt),
       start_(*model_, state_, system_, contacts_ ? &contacts_->rows : nullptr),
       end_(*model_, state_, system_, contacts_ ? &surface_ : nullptr),
       shape_matcher_(*model_) {
@@ -95,6 +100,7 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
 
 void ImplicitSolver::write_state(const State& state) {
     GpuSolver::write_state(state);
+    copy_nodes(current_, state_.from);  // whose velocities are before handles change them
     goes_on_ = is_next_ = false;
     may_be_lost_ = true;
     size_ = 0.0;
@@ -192,6 +198,7 @@ void ImplicitSolver::match_shapes(double elapsed) {
 // And begins to ask whether they were enough.
 void ImplicitSolver::make_tries() {
     for (std::uint32_t k = 0; k < tries_; ++k) make_try();
+    if (!model_->handle_nodes.empty()) start_.end_step(previous_);
     copy_nodes(state_.from, current_);
     clocks_.begin(state_.tries.clock_buffer().id(), sizeof(StepClock));
 }

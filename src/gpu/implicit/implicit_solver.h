@@ -54,7 +54,6 @@ private:
     bool divides_steps_;
     ContactSurface surface_;
     StepState state_;
-    std::optional<PairCapacity> room_;  // at first; none: there are no contacts between bodies
     StepSystem system_;
     std::optional<BodyContacts> contacts_;  // between bodies
     PartStart start_;

@@ -20,6 +20,7 @@ gl::Defines pair_defines(bool has_pairs) {
 
 PartStart::Programs::Programs(const Model& model, bool planes, bool has_pairs)
     : begin_step(gl::Program::compute("sim/implicit/begin_step.comp")),
+      end_step(gl::Program::compute("sim/implicit/end_step.comp")),
       begin_try(gl::Program::compute("sim/implicit/begin_try.comp")),
       predict(gl::Program::compute("sim/implicit/predict.comp", SumLoads::defines(model))),
       sum_bodies(gl::Program::compute("sim/implicit/sum_bodies.comp", pair_defines(has_pairs))),
@@ -37,8 +38,9 @@ PartStart::Programs::Programs(const Model& model, bool planes, bool has_pairs)
 }
 
 std::vector<const gl::Program*> PartStart::Programs::all() const {
-    std::vector<const gl::Program*> all = {&begin_step,   &begin_try,   &predict,     &sum_bodies,
-                                           &find_targets, &find_enough, &sum_motions, &follow_rotation};
+    std::vector<const gl::Program*> all = {&begin_step,  &end_step,    &begin_try,
+                                           &predict,     &sum_bodies,  &find_targets,
+                                           &find_enough, &sum_motions, &follow_rotation};
     if (has_planes) all.insert(all.end(), {&count_rows, &make_rows});
     return all;
 }
@@ -104,11 +106,15 @@ void PartStart::run_always(const gl::Program& program, std::uint32_t groups) con
 void PartStart::begin_step(const NodeBuffers& nodes, double size, bool divides, bool is_next) const {
     programs_.begin_step.bind("given_positions", nodes.position_texels);
     programs_.begin_step.bind("given_velocities", nodes.velocity_texels);
-    programs_.begin_step.set("is_next", is_next ? 1u : 0u);
     programs_.begin_step.set("keeps_held", is_next && pairs_ != nullptr ? 1u : 0u);
     programs_.begin_step.set("size", static_cast<float>(size));
     programs_.begin_step.set("divides", divides ? 1u : 0u);
     run_always(programs_.begin_step, (node_count_ + 63) / 64);
+}
+
+void PartStart::end_step(const NodeBuffers& nodes) const {
+    programs_.end_step.bind("given_velocities", nodes.velocity_texels);
+    run_always(programs_.end_step, (node_count_ + 63) / 64);
 }
 
 void PartStart::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {

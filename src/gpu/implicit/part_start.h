@@ -31,8 +31,11 @@ public:
     /// Once, when velocities of held nodes take them to where handles want them: copies nodes to state.from.
     /// @param size of the step [s] @param divides whether it is divided where bodies touch others
     /// @param is_next whether state.from has nodes where the last step ended: with PairRows held ones go on
-    /// from there, as they may be blocked
+    /// from there, as they may be blocked @pre state.from has velocities from before handles changed them
     void begin_step(const NodeBuffers& nodes, double size, bool divides, bool is_next = false) const;
+    /// After tries: held nodes of state.from have their velocities of begin_step() again, those of `nodes`.
+    /// Ends with the barrier for the next try.
+    void end_step(const NodeBuffers& nodes) const;
     /// A try, up to where StepSystem::solve(state.from) goes on: all of what follows. Ends with the barrier
     /// for it.
     /// @param loads that were summed where the part begins; null if the model has none
@@ -48,7 +51,7 @@ private:
     struct Programs {
         Programs(const Model& model, bool has_planes, bool has_pairs);
         std::vector<const gl::Program*> all() const;
-        gl::Program begin_step, begin_try, predict, count_rows, sum_bodies, place_rows, make_rows,
+        gl::Program begin_step, end_step, begin_try, predict, count_rows, sum_bodies, place_rows, make_rows,
             find_targets, find_enough, sum_motions, follow_rotation;
         bool has_planes;
     };

@@ -1,12 +1,16 @@
-// What pins and handles exert on the device beside what they do on the CPU: with hands and contacts.
+// What pins and handles exert on the device beside what they do on the CPU: with hands and contacts, in
+// motion and where bodies are in their way.
 #include "gpu/implicit/held_forces.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "cpu/implicit/system_solver.h"
 #include "gpu/implicit/implicit_solver.h"
+#include "gpu/support/body_contact_runs.h"
 #include "support/contact_scenes.h"
 #include "support/gl_fixture.h"
 
@@ -52,6 +56,33 @@ TEST_F(HeldForcesTest, AreThoseOfTheCpu) {
             for (std::uint32_t n = 0; n < model->node_count(); ++n)
                 EXPECT_LT(glm::distance(actual.nodes[n], expected.nodes[n]), 5e-3 * force) << n;
         }
+}
+
+// Of the first handle, after each step.
+template <class SolverType>
+std::vector<HoldingForces> forces_in_motion(const std::shared_ptr<const Model>& model) {
+    SolverType solver(model, {.response = CollisionResponse::contact}, {.divides_steps = true});
+    std::vector<HoldingForces> forces;
+    for (int frame = 0; frame < 26; ++frame) {
+        test::advance(solver, *model, frame);
+        forces.push_back(solver.holding_forces());
+    }
+    return forces;
+}
+
+// What a handle gains in speed is its own, also where it waits: not what the rest of its motion would be.
+TEST_F(HeldForcesTest, AreThoseOfTheCpuInMotion) {
+    for (const auto& model : {test::pushed_block(), test::blocked_block()}) {
+        const std::vector<HoldingForces> expected = forces_in_motion<cpu::SystemSolver<float>>(model),
+                                         actual = forces_in_motion<gpu::ImplicitSolver>(model);
+        double most = 0.0;
+        for (const HoldingForces& forces : expected) most = std::max(most, glm::length(forces.by_handle[0]));
+        EXPECT_GT(most, 200.0);
+        for (std::size_t f = 0; f < expected.size(); ++f) {
+            EXPECT_LT(glm::distance(actual[f].by_handle[0], expected[f].by_handle[0]), 2e-3 * most) << f;
+            EXPECT_LT(glm::distance(actual[f].torques[0], expected[f].torques[0]), 2e-3 * most) << f;
+        }
+    }
 }
 
 TEST_F(HeldForcesTest, AreNoneBeforeTheFirstStep) {

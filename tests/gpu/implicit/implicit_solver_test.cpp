@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "cpu/implicit/system_solver.h"
+#include "gpu/support/body_contact_runs.h"
 #include "support/contact_scenes.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
@@ -110,7 +111,7 @@ template <class SolverType>
 State state_after(const StepRun& run) {
     SolverType solver(run.model, {.response = run.response}, {.divides_steps = run.divides});
     if (run.is_pulled) solver.set_pulls(hand_at_the_end(*run.model));
-    for (int s = 0; s < run.steps; ++s) solver.advance({kFrame});
+    for (int s = 0; s < run.steps; ++s) test::advance(solver, *run.model, s);
     return solver.read_state();
 }
 
@@ -135,7 +136,8 @@ INSTANTIATE_TEST_SUITE_P(
                       StepRun{"colliding", colliding_blocks(), true, false, 3},
                       StepRun{"meeting", colliding_blocks(), true, false, 12, CollisionResponse::contact},
                       StepRun{"landing_on_a_table", block_on_a_table(), true, false, 12,
-                              CollisionResponse::contact}),
+                              CollisionResponse::contact},
+                      StepRun{"pushing", test::pushed_block(), true, false, 20, CollisionResponse::contact}),
     [](const auto& test) { return test.param.name; });
 
 // In single precision both differ from the double run by rounding, which impacts enlarge.

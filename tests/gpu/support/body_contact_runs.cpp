@@ -22,6 +22,26 @@ State scattered(const Model& model) {
     return state;
 }
 
+std::shared_ptr<const Model> pushed_block() {
+    HandleDescription side;
+    side.region = HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.01};
+    side.interpolation = Interpolation::smooth;
+    side.keyframes = {{0.0}, {0.3, {0.15, 0.0, 0.0}, {0.0, 0.0, 15.0}}};
+    return make_blocks(
+        {{.cells = {2, 2, 2}, .handles = {side}}, {.place = {0.31, 0.02, 0.01}, .cells = {2, 2, 2}}});
+}
+
+std::shared_ptr<const Model> blocked_block(double depth) {
+    const Region all = SphereRegion{{0.1, 0.1, 0.1}, 1.0};
+    HandleDescription handle;
+    handle.region = all;
+    handle.keyframes = {
+        {0.0}, {0.2, {0.0, -depth, 0.0}}, {0.3, {0.0, -depth, 0.0}}, {0.4, {0.0, -0.02, 0.0}}};
+    const glm::dvec3 size(0.2);
+    return make_blocks({{.place = {0, 0.24, 0}, .cells = {2, 2, 2}, .size = size, .handles = {handle}},
+                        {.place = {0.02, 0, 0.01}, .cells = {2, 2, 2}, .size = size, .pins = {all}}});
+}
+
 void run_body_contacts() {
     const auto model = make_blocks({{.cells = {1, 1, 1}}, {.place = {0, 0.302, 0}, .cells = {1, 1, 1}}});
     gpu::ImplicitSolver solver = make_device_solver(model, {.room = gpu::PairCapacity{1, 4, 4, 4}});
