@@ -175,7 +175,6 @@ inline constexpr Mutant kPartStartMutants[] = {
     {"parts_are_not_divided_again", "sim/implicit/part_choices.glsl", "now.step *= 0.5;", "now.step *= 1.0;"},
     {"what_is_given_up_is_solved", "sim/implicit/tries.glsl", "applies = now.goes_on != 0u",
      "applies = true"},
-    {"objects_have_no_islands", "sim/implicit/place_rows.comp", "        number_islands();", ""},
     {"what_the_part_does_not_resolve_goes_on", "sim/implicit/part_choices.glsl", "(!touches || resolves)",
      "true"},
     {"struck_bodies_go_on", "sim/implicit/part_choices.glsl", "&& !is_struck", ""},

@@ -2,7 +2,6 @@
 // tables go. Bodies have rows with planes alone: each is an island by itself, all of its rows are one pair. One work group.
 // CPU twin: gelatin::cpu::ImplicitStep::run, gelatin::cpu::Paces. Parity: tests/gpu/implicit/part_start_test.cpp.
 const uint kLanes = 256u;
-#include "layouts/packing.glsl"
 #include "layouts/step_rows.glsl"
 #include "sim/implicit/group_counts.glsl"
 #include "sim/implicit/group_sums.glsl"
@@ -18,7 +17,6 @@ uniform uint body_count;
 uniform uint row_capacity;
 layout(std430) buffer Paces { BodyPace paces[]; };
 layout(std430) writeonly buffer Islands { StepIsland islands[]; };
-layout(std430) writeonly buffer IslandOfObject { uint island_of_object[]; };
 layout(std430) writeonly buffer Pairs { StepPair pairs[]; };
 layout(std430) writeonly buffer CouplingStarts { uint coupling_starts[]; };
 layout(std430) writeonly buffer Couplings { uint couplings[]; };  // 2 pair + side
@@ -82,15 +80,6 @@ uint place_bodies() {
     return first_row;
 }
 
-// Also of objects that have no islands.
-void number_islands() {
-    for (uint o = gl_LocalInvocationID.x; o < object_count; o += kLanes) {
-        bool is_island = o < body_count;
-        island_of_object[o] = is_island ? o : kNone;
-        if (!is_island) islands[o] = StepIsland(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
-    }
-}
-
 void main() {
     StepClock now = with_length(clock[0], count_parts(), find_deepest());
     if (now.goes_on != 0u) {
@@ -100,7 +89,6 @@ void main() {
         now.row_count = min(count, row_capacity);
         now.dropped_rows = max(now.dropped_rows, count - now.row_count);
         now.has_past = max_over_group(any_past ? 1.0 : 0.0) > 0.0 ? 1u : 0u;
-        number_islands();
     }
     barrier();  // all have read the clock
     set_clock(now);
