@@ -27,6 +27,8 @@ const uint kRowsOfChunk = 16u;
 // Where a part of a step begins.
 const float kFrame = 1.0 / 60.0;
 const float kRestingTime = 0.1;
+const float kSleepTime = 0.5;
+const float kSleepPlace = 0.01;
 const uint kPartsOfMoving = 4u;
 const uint kPartsOfCalm = 2u;
 const uint kPartsOfStill = 1u;

@@ -28,6 +28,7 @@ using glm::vec4;
 #include "layouts/pair_rows.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
+#include "layouts/rest_state.glsl"
 #include "layouts/shape_match.glsl"
 #include "layouts/skin_point.glsl"
 #include "layouts/spring.glsl"
@@ -90,6 +91,7 @@ static_assert(sizeof(ProximityCounts) == 16);
 static_assert(sizeof(ResidualSums) == 32);
 static_assert(sizeof(RestMoment) == 48);
 static_assert(sizeof(RestShape) == 48);
+static_assert(sizeof(RestState) == 16);
 static_assert(sizeof(RowMemory) == 32);
 static_assert(sizeof(RowPlace) == 16);
 static_assert(sizeof(ShapePlace) == 96);
@@ -164,6 +166,7 @@ using layouts::ProximityCounts;
 using layouts::ResidualSums;
 using layouts::RestMoment;
 using layouts::RestShape;
+using layouts::RestState;
 using layouts::RowMemory;
 using layouts::RowPlace;
 using layouts::ShapePlace;

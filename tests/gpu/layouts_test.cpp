@@ -133,6 +133,9 @@ TEST_F(LayoutsTest, StepRows) {
 }
 
 TEST_F(LayoutsTest, StepState) {
+    check("rest_state.glsl", "RestState", sizeof(RestState),
+          {FIELD(RestState, time), FIELD(RestState, is_restless), FIELD(RestState, takes_places),
+           FIELD(RestState, rests)});
     check("step_state.glsl", "StepClock", sizeof(StepClock),
           {FIELD(StepClock, size),      FIELD(StepClock, left),         FIELD(StepClock, longest),
            FIELD(StepClock, step),      FIELD(StepClock, last_step),    FIELD(StepClock, gained),

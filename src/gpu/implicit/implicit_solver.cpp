@@ -42,6 +42,9 @@ struct Memory {
     std::vector<float> lost_for;      // as ShapeMatcher has it
     PairRows::Memory contacts;        // between bodies, if there may be any
     std::vector<glm::vec4> ended_at;  // nodes, where blocked ones are not where they are held
+    std::vector<RestState> rest = std::vector<RestState>(1);
+    std::vector<glm::vec4> places = {};  // as StepState has them
+    std::vector<float> load_factors = {};
 
     void pass(Archive& archive) {
         constexpr std::size_t kDevice = 0xDE71CE;  // no size of a scalar, with which the host's begins
@@ -59,6 +62,9 @@ struct Memory {
         archive.list(end.pair_meetings);
         archive.array(lost_for);
         archive.array(ended_at);
+        archive.array(rest);
+        archive.array(places);
+        archive.list(load_factors);
         archive.array(contacts.starts);
         archive.list(contacts.entries);
         archive.list(contacts.rows);
@@ -81,6 +87,7 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const Model> model, const Collisi
                                const ImplicitSettings& settings, const std::optional<PairCapacity>& room)
     : GpuSolver(std::move(model), collision),
       divides_steps_(settings.divides_steps),
+      sleeps_(settings.sleeps && has_contacts(*model_, collision)),
       surface_(make_contact_surface(*model_, collision)),
       state_(*model_, surface_),
       system_(*model_, state_.tries, capacity_of(*model_, collision, room), most_small_chunks()),
@@ -104,6 +111,7 @@ void ImplicitSolver::write_state(const State& state) {
     goes_on_ = is_next_ = false;
     may_be_lost_ = true;
     size_ = 0.0;
+    state_.wake();
     if (restore(state.memory)) return;
     end_.forget();
     if (contacts_) contacts_->rows.forget();
@@ -139,6 +147,9 @@ std::string ImplicitSolver::memory() {
         memory.contacts = contacts_->rows.memory();
         memory.ended_at.resize(model_->node_count());
         state_.from.positions.download(memory.ended_at);
+        state_.rest.download(memory.rest);
+        memory.places = read(state_.places);
+        memory.load_factors = load_factors_;
     }
     memory.pass(archive);
     return bytes;
@@ -150,6 +161,7 @@ bool ImplicitSolver::restore(std::string_view bytes) {
     Memory memory{end_.empty_memory(), std::vector<float>(model_->objects.size()), {}, {}};
     if (contacts_) {
         memory.ended_at.resize(model_->node_count());
+        memory.places.resize(model_->node_count());
         memory.contacts.starts.resize(model_->node_count() + 1);
     }
     memory.pass(archive);
@@ -165,7 +177,17 @@ bool ImplicitSolver::restore(std::string_view bytes) {
     }
     contacts_->rows.set_memory(memory.contacts);
     state_.from.positions.upload(memory.ended_at);
+    state_.rest.upload(memory.rest);
+    state_.places.upload(memory.places);
+    load_factors_ = memory.load_factors;
     return is_next_ = true;
+}
+
+// By loads that change, or by hands.
+bool ImplicitSolver::is_driven(const Step& step) {
+    const std::vector<float> before =
+        std::exchange(load_factors_, {step.load_factors.begin(), step.load_factors.end()});
+    return buffers_.pulls.is_acting() || (is_next_ && before != load_factors_);
 }
 
 void ImplicitSolver::advance_nodes(const Step& step) {
@@ -176,7 +198,7 @@ void ImplicitSolver::advance_nodes(const Step& step) {
     loads_ = loads_of(step);
     std::swap(current_, previous_);
     gl::barrier(gl::Barrier::storage);  // copies have to have read what this writes
-    start_.begin_step(previous_, step.size, divides_steps_, is_next_);
+    start_.begin_step(previous_, {step.size, divides_steps_, is_next_, sleeps_, is_driven(step)});
     is_next_ = true;
     size_ = step.size;
     match_shapes(step.size);
@@ -198,7 +220,7 @@ void ImplicitSolver::match_shapes(double elapsed) {
 // And begins to ask whether they were enough.
 void ImplicitSolver::make_tries() {
     for (std::uint32_t k = 0; k < tries_; ++k) make_try();
-    if (!model_->handle_nodes.empty()) start_.end_step(previous_);
+    if (contacts_ || !model_->handle_nodes.empty()) start_.end_step(previous_);
     copy_nodes(state_.from, current_);
     clocks_.begin(state_.tries.clock_buffer().id(), sizeof(StepClock));
 }

@@ -46,12 +46,13 @@ protected:
 
 private:
     void match_shapes(double elapsed);
+    bool is_driven(const Step& step);
     void make_tries();
     void make_try();
     void grow(const PairCapacity& capacity);
     bool restore(std::string_view bytes);
 
-    bool divides_steps_;
+    bool divides_steps_, sleeps_;
     ContactSurface surface_;
     StepState state_;
     StepSystem system_;
@@ -61,14 +62,15 @@ private:
     std::optional<HeldForces> held_forces_;  // if bodies are held
     ShapeMatcher shape_matcher_;             // of bodies that have lost their shape, before they move
     const SumLoads* loads_ = nullptr;
-    bool goes_on_ = false;      // with earlier velocities of a state that was written
-    bool is_next_ = false;      // state_ has nodes where the last step ended
-    double size_ = 0.0;         // of the last step; 0: none was made since nodes were set [s]
-    std::uint32_t tries_ = 1;   // to launch
-    bool has_warned_ = false;   // of contacts without a place
-    bool may_be_lost_ = false;  // by the step before: a body has lost its shape
-    gl::Readback clocks_;       // of steps that were launched: of one at most
-    gl::Readback lost_for_;     // the same, with contacts
+    bool goes_on_ = false;             // with earlier velocities of a state that was written
+    bool is_next_ = false;             // state_ has nodes where the last step ended
+    double size_ = 0.0;                // of the last step; 0: none was made since nodes were set [s]
+    std::vector<float> load_factors_;  // of the last step
+    std::uint32_t tries_ = 1;          // to launch
+    bool has_warned_ = false;          // of contacts without a place
+    bool may_be_lost_ = false;         // by the step before: a body has lost its shape
+    gl::Readback clocks_;              // of steps that were launched: of one at most
+    gl::Readback lost_for_;            // the same, with contacts
 };
 
 }  // namespace gelatin::gpu

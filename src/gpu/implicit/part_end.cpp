@@ -238,7 +238,6 @@ void PartEnd::begin_step(const ModelBuffers& model) const {
     programs_.find_energies.dispatch_groups(chunk_count_);
     gl::barrier(gl::Barrier::storage);
     programs_.begin_energies.dispatch(object_count_);
-    gl::barrier(gl::Barrier::storage);
 }
 
 void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads) const {

@@ -40,6 +40,7 @@ public:
     void grow();
 
     /// A step begins: finds the elastic energy of bodies in `from`, which may have been set from outside.
+    /// Tries have the barrier for it.
     void begin_step(const ModelBuffers& model) const;
     /// After a solve. @param loads null: the model has none @pre they are those that the solve had
     /// Ends with the barrier for whoever reads the state.

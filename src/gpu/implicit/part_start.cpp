@@ -103,12 +103,14 @@ void PartStart::run_always(const gl::Program& program, std::uint32_t groups) con
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
 }
 
-void PartStart::begin_step(const NodeBuffers& nodes, double size, bool divides, bool is_next) const {
+void PartStart::begin_step(const NodeBuffers& nodes, const StepStart& step) const {
     programs_.begin_step.bind("given_positions", nodes.position_texels);
     programs_.begin_step.bind("given_velocities", nodes.velocity_texels);
-    programs_.begin_step.set("keeps_held", is_next && pairs_ != nullptr ? 1u : 0u);
-    programs_.begin_step.set("size", static_cast<float>(size));
-    programs_.begin_step.set("divides", divides ? 1u : 0u);
+    programs_.begin_step.set("keeps_held", step.is_next && pairs_ != nullptr ? 1u : 0u);
+    programs_.begin_step.set("size", static_cast<float>(step.size));
+    programs_.begin_step.set("divides", step.divides ? 1u : 0u);
+    programs_.begin_step.set("is_driven", step.is_driven ? 1u : 0u);
+    programs_.begin_try.set("sleeps", step.sleeps ? 1u : 0u);
     run_always(programs_.begin_step, (node_count_ + 63) / 64);
 }
 

@@ -15,9 +15,18 @@
 
 namespace gelatin::gpu {
 
+/// A step that begins.
+struct StepStart {
+    double size;             ///< [s]
+    bool divides = false;    ///< it is divided where bodies touch others
+    bool is_next = false;    ///< state.from has nodes where the last step ended
+    bool sleeps = false;     ///< nothing is made while all bodies rest
+    bool is_driven = false;  ///< bodies do not rest: loads or hands act on them
+};
+
 /// Where a part of a step begins: what its system is made of. Without PairRows bodies touch colliders alone,
 /// so each is an island by itself. Or the part is found to be too long: then the clock has a shorter one for
-/// the next try, and there are no islands. Nothing is read back. CPU twin: cpu::ImplicitStep.
+/// the next try. Nothing is read back. CPU twin: cpu::ImplicitStep.
 class PartStart {
 public:
     /// @param state, system which it writes, and which have to live as long, as have
@@ -29,12 +38,11 @@ public:
     void bind_buffers() const;
 
     /// Once, when velocities of held nodes take them to where handles want them: copies nodes to state.from.
-    /// @param size of the step [s] @param divides whether it is divided where bodies touch others
-    /// @param is_next whether state.from has nodes where the last step ended: with PairRows held ones go on
-    /// from there, as they may be blocked @pre state.from has velocities from before handles changed them
-    void begin_step(const NodeBuffers& nodes, double size, bool divides, bool is_next = false) const;
+    /// With PairRows held ones go on from where the last step ended, as they may be blocked.
+    /// @pre state.from has velocities from before handles changed them
+    void begin_step(const NodeBuffers& nodes, const StepStart& step) const;
     /// After tries: held nodes of state.from have their velocities of begin_step() again, those of `nodes`.
-    /// Ends with the barrier for the next try.
+    /// If bodies rest, nothing has any. Ends with the barrier for the next try.
     void end_step(const NodeBuffers& nodes) const;
     /// A try, up to where StepSystem::solve(state.from) goes on: all of what follows. Ends with the barrier
     /// for it.

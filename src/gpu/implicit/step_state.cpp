@@ -1,8 +1,25 @@
 #include "gpu/implicit/step_state.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "model/shared_constants.h"
 
 namespace gelatin::gpu {
+namespace {
+
+constexpr RestState kRestless{0.0f, 0, 1, 0};
+
+// What is no body never rests.
+std::vector<float> rest_distances_of(const Model& model, const ContactSurface& surface) {
+    std::vector<float> distances(model.node_count(), std::numeric_limits<float>::max());
+    for (std::size_t o = 0; o < model.body_count(); ++o)
+        std::fill_n(distances.begin() + model.objects[o].nodes.first, model.objects[o].nodes.count,
+                    contact_tuning::kSleepPlace * static_cast<float>(surface.thicknesses[o]));
+    return distances;
+}
+
+}  // namespace
 
 StepState::StepState(const Model& model, const ContactSurface& surface)
     : from(model.positions, model.velocities),
@@ -12,15 +29,26 @@ StepState::StepState(const Model& model, const ContactSurface& surface)
       held_changes(model.positions.size(), gl::TexelFormat::rgba32f),
       predicted(model.positions.size(), gl::TexelFormat::rgba32f),
       accelerations(model.positions.size(), gl::TexelFormat::rgba32f),
+      rest(std::vector<RestState>{kRestless}),
+      places(model.positions),
       stiffness_(surface.stiffness, gl::TexelFormat::r32f),
       thicknesses_(std::vector<float>(surface.thicknesses.begin(), surface.thicknesses.end()),
                    gl::TexelFormat::r32f),
       masses_(model.masses, gl::TexelFormat::r32f),
+      rest_distances_(rest_distances_of(model, surface), gl::TexelFormat::r32f),
       body_count_(static_cast<std::uint32_t>(model.body_count())),
       body_nodes_(model.body_node_count()) {
+    const std::vector<double>& thicknesses = surface.thicknesses;
+    const auto end_of_bodies = thicknesses.begin() + static_cast<std::ptrdiff_t>(body_count_);
+    rest_distance_of_held_ = contact_tuning::kSleepPlace *
+                             static_cast<float>(*std::min_element(thicknesses.begin(), end_of_bodies));
     const std::size_t planes = std::max<std::size_t>(model.colliders.size() * model.body_node_count(), 1);
     plane_memories = gl::Buffer<PlaneMemory>(std::vector<PlaneMemory>(planes));
     plane_notes = gl::Buffer<PlaneMemory>(std::vector<PlaneMemory>(planes));
+}
+
+void StepState::wake() {
+    rest.upload(std::vector<RestState>{kRestless});
 }
 
 void StepState::bind(const gl::Program& program) const {
@@ -32,6 +60,10 @@ void StepState::bind(const gl::Program& program) const {
     accelerations.bind(program, "Accelerations", "accelerations");
     program.bind_declared("PlaneMemories", plane_memories);
     program.bind_declared("PlaneNotes", plane_notes);
+    program.bind_declared("Rest", rest);
+    program.bind_declared("Places", places);
+    program.bind_declared("rest_distances", rest_distances_);
+    program.set("rest_distance_of_held", rest_distance_of_held_);
     program.bind_declared("node_stiffness", stiffness_);
     program.bind_declared("thicknesses", thicknesses_);
     program.bind_declared("masses", masses_);

@@ -20,6 +20,8 @@ class StepState {
 public:
     StepState(const Model& model, const ContactSurface& surface);
 
+    /// Bodies begin to rest anew: nodes were set from outside.
+    void wake();
     /// What the program's source names; but for what is bound to it by another name.
     void bind(const gl::Program& program) const;
 
@@ -33,7 +35,9 @@ public:
     /// [m/N]: Predicted, predicted. By node, as are goals.
     StepBuffer<glm::vec4> predicted;
     StepBuffer<glm::vec4>
-        accelerations;  ///< a_0 of TimeScheme [m/s^2], by node: Accelerations, accelerations
+        accelerations;             ///< a_0 of TimeScheme [m/s^2], by node: Accelerations, accelerations
+    gl::Buffer<RestState> rest;    ///< one; block Rest, rest[0]
+    gl::Buffer<glm::vec4> places;  ///< that nodes keep to while bodies rest [m]; w: inverse mass: Places
     /// Of contacts with planes, by collider and then by nodes of bodies: what was passed on, and what this
     /// part passes on if it is made: PlaneMemories and PlaneNotes.
     gl::Buffer<PlaneMemory> plane_memories, plane_notes;
@@ -41,6 +45,8 @@ public:
 private:
     gl::TexelTable<float> stiffness_, thicknesses_;  // ContactSurface's: node_stiffness, thicknesses
     gl::TexelTable<float> masses_;                   // of nodes: masses [kg]
+    gl::TexelTable<float> rest_distances_;           // of nodes from their places, at most [m]
+    float rest_distance_of_held_;
     std::uint32_t body_count_, body_nodes_;
 };
 

@@ -127,6 +127,57 @@ TEST_F(BodyContactsTest, ForcesAreWeights) {
     EXPECT_NEAR(on_nodes.y, weight, 0.02 * weight);
 }
 
+// Bodies that rest stay where they are to the last bit, and have no speed.
+bool is_asleep(gpu::ImplicitSolver& solver) {
+    const State before = state_after(solver, 1), after = state_after(solver, 1);
+    return before.positions == after.positions &&
+           std::all_of(after.velocities.begin(), after.velocities.end(),
+                       [](const glm::vec4& v) { return glm::vec3(v) == glm::vec3(0.0f); });
+}
+
+int frames_until_asleep(gpu::ImplicitSolver& solver) {
+    int frames = 0;
+    while (frames < 400 && !is_asleep(solver)) frames += 2;
+    return frames;
+}
+
+TEST_F(BodyContactsTest, BodiesAtRestSleepAndWake) {
+    const SharedModel model = make_stack();
+    gpu::ImplicitSolver solver = make_device_solver(model, {.sleeps = true});
+    const int frames = frames_until_asleep(solver);
+    EXPECT_GT(frames, 30);  // half a second
+    EXPECT_LT(frames, 400);
+    const ContactForces forces = solver.contact_forces();
+    EXPECT_EQ(forces.between.size(), 2u);  // as when they fell asleep
+    const double weight = 9.81 * model->objects[1].mass;
+    solver.set_forces(std::vector<glm::vec3>(model->node_count(), glm::vec3(0.0f, 1e-3f, 0.0f)));
+    EXPECT_FALSE(is_asleep(solver));
+    solver.set_forces({});
+    EXPECT_FALSE(is_asleep(solver));
+    EXPECT_NEAR(std::abs(solver.contact_forces().between[0].normal.y), weight, 0.05 * weight);
+    EXPECT_LT(frames_until_asleep(solver), 60);
+}
+
+TEST_F(BodyContactsTest, BodiesThatMayNotSleepGoOn) {
+    gpu::ImplicitSolver solver = make_device_solver(make_stack());
+    state_after(solver, 200);
+    EXPECT_FALSE(is_asleep(solver));
+}
+
+TEST_F(BodyContactsTest, SleepGoesOnFromACheckpoint) {
+    const SharedModel model = make_stack();
+    gpu::ImplicitSolver solver = make_device_solver(model, {.sleeps = true});
+    ASSERT_LT(frames_until_asleep(solver), 400);
+    State state = solver.read_state();
+    state.memory = solver.memory();
+    gpu::ImplicitSolver other = make_device_solver(model, {.sleeps = true});
+    other.write_state(state);
+    EXPECT_TRUE(is_asleep(other));
+    state.memory.clear();
+    other.write_state(state);
+    EXPECT_FALSE(is_asleep(other));
+}
+
 // [m]
 double farthest_move(const State& from, const State& to) {
     double most = 0.0;

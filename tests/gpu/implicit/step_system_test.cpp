@@ -51,6 +51,8 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kMostLinearisations, static_cast<std::uint32_t>(cpu::kMostLinearisations));
     EXPECT_EQ(gpu::kFrame, static_cast<float>(cpu::kFrame));
     EXPECT_EQ(gpu::kRestingTime, static_cast<float>(cpu::kRestingTime));
+    EXPECT_EQ(gpu::kSleepTime, static_cast<float>(cpu::kSleepTime));
+    EXPECT_EQ(gpu::kSleepPlace, static_cast<float>(cpu::kSleepPlace));
     EXPECT_EQ((std::array{gpu::kPartsOfMoving, gpu::kPartsOfCalm, gpu::kPartsOfStill}), cpu::kParts);
     EXPECT_EQ(gpu::kLeastReach, static_cast<float>(cpu::kLeastReach));
     EXPECT_EQ(gpu::kEasing, static_cast<float>(cpu::kEasing));

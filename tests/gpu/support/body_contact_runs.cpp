@@ -10,7 +10,10 @@ gpu::ImplicitSolver make_device_solver(const std::shared_ptr<const Model>& model
     return gpu::ImplicitSolver(
         model,
         {.response = CollisionResponse::contact, .self_collision = true, .friction = contacts.friction},
-        {.iterations = contacts.iterations, .divides_steps = contacts.divides_steps}, contacts.room);
+        {.iterations = contacts.iterations,
+         .divides_steps = contacts.divides_steps,
+         .sleeps = contacts.sleeps},
+        contacts.room);
 }
 
 State scattered(const Model& model) {

@@ -12,6 +12,7 @@ struct DeviceContacts {
     double friction = 0.4;
     int iterations = 10;
     bool divides_steps = true;
+    bool sleeps = false;
     std::optional<gpu::PairCapacity> room = {};  ///< at first
 };
 

@@ -121,7 +121,7 @@ public:
             guard_.decide(tuning::kMostGuards);
             clock = state_.tries.clock();
             follow_paths();
-        } while (clock.guards != 0);
+        } while (clock.guards != 0 && result.runs <= tuning::kMostGuards);
         result.clock = clock;
         const GuardState found = downloaded(guard_.found())[0];
         result.is_changed = found.is_changed != 0;

@@ -150,7 +150,7 @@ StartOnGpu::StartOnGpu(const StartCase& at, const StartInputs& inputs, std::vect
     state.tries.set_clock(clock);
     // What is left of a solve before.
     system.loads().upload(std::vector<glm::vec4>(model_.node_count(), glm::vec4(1.0f, 2.0f, 3.0f, 1e3f)));
-    start.begin_step(state.from, static_cast<double>(at.size), at.divides);
+    start.begin_step(state.from, {static_cast<double>(at.size), at.divides});
     clock = read_clock();
     clock.damps = at.damps ? 1 : 0;
     if (at.left > 0.0f) {
