@@ -14,7 +14,6 @@ uniform uint divides;
 uniform uint keeps_held;           // 1: held ones go on from where the last step ended
 uniform uint is_driven;            // 1: by what is no handle
 uniform samplerBuffer rest_distances;  // of nodes from their places, at most [m]
-uniform float rest_distance_of_held;   // from where the last step ended, at most [m]
 layout(std430) buffer Clock { StepClock clock[]; };
 layout(std430) writeonly buffer Goals { vec4 goals[]; };  // of held nodes [m]
 layout(std430) buffer Positions { vec4 positions[]; };
@@ -41,9 +40,8 @@ void begin_clock() {
     clock[0] = now;
 }
 
-// @param asked where the node is, or is wanted @param way from where the last step ended, if it is held
-bool is_restless(uint n, vec4 asked, vec3 way) {
-    if (asked.w == 0.0 && dot(way, way) > rest_distance_of_held * rest_distance_of_held) return true;
+// @param asked where the node is, or its handle wants it
+bool is_restless(uint n, vec4 asked) {
     if (rest[0].takes_places != 0u) {
         places[n] = asked;
         return false;
@@ -63,7 +61,7 @@ void main() {
     velocities[n] = v;
     vec4 goal = is_held ? vec4(x.xyz + size * v.xyz, 0.0) : x;
     // Whoever writes it writes the same.
-    if (is_driven != 0u || is_restless(n, goal, goal.xyz - positions[n].xyz)) rest[0].is_restless = 1u;
+    if (is_driven != 0u || is_restless(n, goal)) rest[0].is_restless = 1u;
     if (is_held) {
         goals[n] = goal;
         if (keeps_held != 0u && was_held) return;

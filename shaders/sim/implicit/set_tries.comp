@@ -1,4 +1,4 @@
-// Arguments of dispatches by the clock as it is. One work group. CPU twin: gelatin::gpu::Tries::set.
+// Arguments of dispatches by the clock as it is. One work group.
 // Parity: tests/gpu/implicit/tries_test.cpp.
 #include "sim/implicit/tries.glsl"
 layout(local_size_x = 64) in;

@@ -10,12 +10,15 @@ namespace {
 
 constexpr RestState kRestless{0.0f, 0, 1, 0};
 
-// What is no body never rests.
+// Of colliders, which have no thickness, as of the thinnest body.
 std::vector<float> rest_distances_of(const Model& model, const ContactSurface& surface) {
-    std::vector<float> distances(model.node_count(), std::numeric_limits<float>::max());
-    for (std::size_t o = 0; o < model.body_count(); ++o)
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t o = 0; o < model.body_count(); ++o) least = std::min(least, surface.thicknesses[o]);
+    std::vector<float> distances(model.node_count());
+    for (std::size_t o = 0; o < model.objects.size(); ++o)
         std::fill_n(distances.begin() + model.objects[o].nodes.first, model.objects[o].nodes.count,
-                    contact_tuning::kSleepPlace * static_cast<float>(surface.thicknesses[o]));
+                    contact_tuning::kSleepPlace *
+                        static_cast<float>(model.is_body(o) ? surface.thicknesses[o] : least));
     return distances;
 }
 
@@ -38,10 +41,6 @@ StepState::StepState(const Model& model, const ContactSurface& surface)
       rest_distances_(rest_distances_of(model, surface), gl::TexelFormat::r32f),
       body_count_(static_cast<std::uint32_t>(model.body_count())),
       body_nodes_(model.body_node_count()) {
-    const std::vector<double>& thicknesses = surface.thicknesses;
-    const auto end_of_bodies = thicknesses.begin() + static_cast<std::ptrdiff_t>(body_count_);
-    rest_distance_of_held_ = contact_tuning::kSleepPlace *
-                             static_cast<float>(*std::min_element(thicknesses.begin(), end_of_bodies));
     const std::size_t planes = std::max<std::size_t>(model.colliders.size() * model.body_node_count(), 1);
     plane_memories = gl::Buffer<PlaneMemory>(std::vector<PlaneMemory>(planes));
     plane_notes = gl::Buffer<PlaneMemory>(std::vector<PlaneMemory>(planes));
@@ -63,7 +62,6 @@ void StepState::bind(const gl::Program& program) const {
     program.bind_declared("Rest", rest);
     program.bind_declared("Places", places);
     program.bind_declared("rest_distances", rest_distances_);
-    program.set("rest_distance_of_held", rest_distance_of_held_);
     program.bind_declared("node_stiffness", stiffness_);
     program.bind_declared("thicknesses", thicknesses_);
     program.bind_declared("masses", masses_);

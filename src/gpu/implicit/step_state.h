@@ -46,7 +46,6 @@ private:
     gl::TexelTable<float> stiffness_, thicknesses_;  // ContactSurface's: node_stiffness, thicknesses
     gl::TexelTable<float> masses_;                   // of nodes: masses [kg]
     gl::TexelTable<float> rest_distances_;           // of nodes from their places, at most [m]
-    float rest_distance_of_held_;
     std::uint32_t body_count_, body_nodes_;
 };
 

@@ -127,6 +127,14 @@ TEST_F(BodyContactsTest, ForcesAreWeights) {
     EXPECT_NEAR(on_nodes.y, weight, 0.02 * weight);
 }
 
+// [m]
+double farthest_move(const State& from, const State& to) {
+    double most = 0.0;
+    for (std::size_t n = 0; n < from.positions.size(); ++n)
+        most = std::max(most, glm::distance(glm::dvec3(from.positions[n]), glm::dvec3(to.positions[n])));
+    return most;
+}
+
 // Bodies that rest stay where they are to the last bit, and have no speed.
 bool is_asleep(gpu::ImplicitSolver& solver) {
     const State before = state_after(solver, 1), after = state_after(solver, 1);
@@ -164,6 +172,16 @@ TEST_F(BodyContactsTest, BodiesThatMayNotSleepGoOn) {
     EXPECT_FALSE(is_asleep(solver));
 }
 
+TEST_F(BodyContactsTest, HandlesWakeBodies) {
+    const SharedModel model = test::blocked_block();
+    gpu::ImplicitSolver solver = make_device_solver(model, {.sleeps = true}),
+                        other = make_device_solver(model);
+    ASSERT_LT(frames_until_asleep(solver), 40);
+    for (int frame = 0; frame < 3; ++frame)
+        for (gpu::ImplicitSolver* each : {&solver, &other}) test::advance(*each, *model, frame);
+    EXPECT_LT(farthest_move(other.read_state(), solver.read_state()), 1e-6);
+}
+
 TEST_F(BodyContactsTest, SleepGoesOnFromACheckpoint) {
     const SharedModel model = make_stack();
     gpu::ImplicitSolver solver = make_device_solver(model, {.sleeps = true});
@@ -176,14 +194,6 @@ TEST_F(BodyContactsTest, SleepGoesOnFromACheckpoint) {
     state.memory.clear();
     other.write_state(state);
     EXPECT_FALSE(is_asleep(other));
-}
-
-// [m]
-double farthest_move(const State& from, const State& to) {
-    double most = 0.0;
-    for (std::size_t n = 0; n < from.positions.size(); ++n)
-        most = std::max(most, glm::distance(glm::dvec3(from.positions[n]), glm::dvec3(to.positions[n])));
-    return most;
 }
 
 // It waits where a body is in its way, and goes on from there, as on the CPU.
