@@ -6,12 +6,13 @@ const uint kLanes = 256u;
 #include "layouts/contact_tuning.glsl"
 #include "sim/implicit/clock.glsl"
 #include "sim/implicit/group_sums.glsl"
+#include "sim/implicit/part_choices.glsl"
 layout(local_size_x = 256) in;
 
 uniform samplerBuffer positions;      // xyz [m]; w: inverse mass, 0: held
 uniform samplerBuffer predicted;      // displacements [m]
 uniform samplerBuffer velocities;     // xyz [m/s]
-uniform samplerBuffer paces;          // BodyPace, five texels each
+uniform usamplerBuffer paces;         // BodyPace, five texels each
 uniform samplerBuffer thicknesses;    // by object [m]
 uniform usamplerBuffer object_nodes;  // by object: first, end
 uniform uint object_count;
@@ -27,11 +28,8 @@ void main() {
     uint o = group_index(), lane = gl_LocalInvocationID.x;
     if (o >= object_count) return;
     uvec2 nodes = texelFetch(object_nodes, int(o)).xy;
-    bool is_new = clock[0].guards == 0u, goes_on = o < body_count && clock[0].last_step > 0.0 && follows == 0u;
-    // What pressed a body goes on to do so.
-    float step = clock[0].step;
-    vec3 acceleration = vec3(0.0);
-    if (goes_on) acceleration = texelFetch(paces, 5 * int(o) + 3).xyz / texelFetch(paces, 5 * int(o) + 2).w;
+    // What is calm is carried by what it touches.
+    bool is_new = clock[0].guards == 0u, is_carried = follows == 0u && texelFetch(paces, 5 * int(o)).x != kMoving;
     float longest = 0.0, thickness = texelFetch(thicknesses, int(o)).x;
     vec3 sum = vec3(0.0);
     for (uint n = nodes.x + lane; n < nodes.y; n += kLanes) {
@@ -39,7 +37,7 @@ void main() {
         if (is_new) {
             vec3 d = texelFetch(predicted, int(n)).xyz;
             longest = max(longest, length(d));
-            if (goes_on && x.w > 0.0) d = step * (texelFetch(velocities, int(n)).xyz + step * acceleration);
+            if (is_carried) d = clock[0].step * texelFetch(velocities, int(n)).xyz;
             path_ends[n] = vec4(x.xyz + d, x.w);
         }
         sum += path_ends[n].xyz - x.xyz;

@@ -282,11 +282,9 @@ void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>
         const bool is_held = previous.positions[n].w == Real(0);
         expected_[n] = step * v;
         if (!is_held) expected_[n] += step * step * acceleration(input, previous, n);
-        // What pressed a body goes on to do so.
-        const Vec3<Real> path = is_held || !scheme_.has_past()
-                                    ? expected_[n]
-                                    : step * (v + step * scheme_.acceleration(object_of_[n]));
-        ends_[n] = Vec4<Real>(x + path, previous.positions[n].w);
+        // What is calm is carried by what it touches.
+        const bool is_carried = model_->is_body(object_of_[n]) && paces_.is_calm(object_of_[n]);
+        ends_[n] = Vec4<Real>(x + (is_carried ? step * v : expected_[n]), previous.positions[n].w);
         compliances_[n] = is_held ? Real(0)
                                   : Real(1) / (Real(1) / (previous.positions[n].w * least * least) +
                                                static_cast<Real>(surface_->stiffness[n]) / Real(3));

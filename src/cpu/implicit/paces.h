@@ -31,6 +31,9 @@ public:
     /// scheme. @return by body, whether it is
     std::vector<std::uint8_t>& struck() { return is_struck_; }
 
+    /// Hardly vibrates, and touches others but hardly goes towards or away from them.
+    bool is_calm(std::size_t body) const { return paces_[body] != Pace::moving; }
+
     /// Into how many parts a step is divided at least: into four where bodies that touch others move, two
     /// where all are calm, one where all are still or nothing is near.
     std::uint32_t count_parts(std::span<const ContactRow<Real>> rows) const;
@@ -46,8 +49,7 @@ public:
               const Nodes<Real>& current);
 
 private:
-    // Calm bodies hardly vibrate, and touch others but hardly go towards or away from them; still ones hardly
-    // move at all.
+    // Still ones are calm, and hardly move at all.
     enum class Pace : std::uint8_t { moving, calm, still };
 
     std::shared_ptr<const Model> model_;

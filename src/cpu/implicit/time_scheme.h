@@ -66,10 +66,6 @@ public:
     /// It was made.
     void end(const Nodes<Real>& previous, const Nodes<Real>& current);
 
-    /// Of a body's mass in the last step [m/s^2]. @pre has_past()
-    Vec3<Real> acceleration(std::size_t body) const {
-        return Vec3<Real>(rates_[body].linear / model_->objects[body].mass);
-    }
     Real last_step() const { return last_step_; }  ///< its length, 0: there is none [s]
 
 private:

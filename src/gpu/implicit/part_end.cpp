@@ -369,7 +369,6 @@ void PartEnd::go_on(std::span<const glm::vec4> positions, std::span<const glm::v
             momentum += m * change;
             angular += m * glm::cross(r, change);
         }
-        paces[o].velocity.w = static_cast<float>(mass);
         paces[o].force = glm::vec4(momentum, 0.0);
         if (mass > 0.0) paces[o].moment = glm::vec4(angular - glm::cross(middle, momentum) / mass, 0.0);
     }
