@@ -40,9 +40,10 @@ std::vector<glm::dvec3> grid_places(const glm::dvec3& spacing, Axis up, int coun
     const double middle = 0.5 * (columns - 1);
     std::vector<glm::dvec3> places;
     for (int c = 0; c < count; ++c) {
+        const int column = c % columns, row = c / columns;
         glm::dvec3 place(0.0);
-        place[across] = (c % columns - middle) * spacing[across];
-        place[along] = (c / columns - middle) * spacing[along];
+        place[across] = (column - middle) * spacing[across];
+        place[along] = (row - middle) * spacing[along];
         places.push_back(place);
     }
     return places;
