@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "bench/moved_bytes.h"
 #include "bench/threads.h"
 #include "cpu/explicit/explicit_solver.h"
 #include "cpu/implicit/step_system.h"
@@ -17,7 +18,7 @@
 namespace gelatin {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // [s], the implicit step
+constexpr double kImplicitStep = 1.0 / 60.0;  // [s]
 
 constexpr int kSolveIterations = 10;
 constexpr const char* kLineariseStage = "linearise";
@@ -41,18 +42,9 @@ double merge_bytes(const Model& m) {
 double integrate_bytes(const Model& m) {
     return (2 * kNodeBytes + sizeof(glm::vec4)) * m.node_count();
 }
-// A step's matrix, of edges that all have springs, and of tets.
-double matrix_bytes(const Model& m) {
-    return static_cast<double>(m.springs.size()) * (sizeof(EdgeMatrix) + 2 * sizeof(glm::uvec2));
-}
-double linearise_bytes(const Model& m) {
-    return matrix_bytes(m) + static_cast<double>(m.springs.size()) * sizeof(ElementEdge) +
-           static_cast<double>(m.tets.size()) * 5 * sizeof(glm::vec4) +
-           (kNodeBytes + sizeof(NodeBlock)) * m.node_count();
-}
-// An iteration reads the matrix, and reads and writes five fields.
+// With the residual before them.
 double solve_bytes(const Model& m) {
-    return (kSolveIterations + 1) * (matrix_bytes(m) + 10 * sizeof(glm::vec4) * m.node_count());
+    return (kSolveIterations + 1) * iteration_bytes(m);
 }
 // One part, as bodies make that touch nothing.
 double implicit_bytes(const Model& m) {
@@ -111,13 +103,14 @@ private:
 std::vector<glm::vec4> loads_of(const Model& model) {
     std::vector<glm::vec4> loads;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        const float inertia = 16.0f / (model.positions[n].w * static_cast<float>(kFrame * kFrame));
+        const float inertia =
+            16.0f / (model.positions[n].w * static_cast<float>(kImplicitStep * kImplicitStep));
         loads.emplace_back(1e-3f * inertia * glm::vec3(std::sin(0.1f * static_cast<float>(n)), 1.0f, 0.0f),
                            inertia);
     }
     return loads;
 }
-constexpr float kInversePart = 4.0f / static_cast<float>(kFrame);  // [1/s]
+constexpr float kInversePart = 4.0f / static_cast<float>(kImplicitStep);  // [1/s]
 
 class CpuSystem {
 public:
@@ -208,7 +201,7 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
         cases.push_back({name, kDividedStage, divided_bytes, [divided, step] { divided->advance({step}); },
                          nothing, threads});
         cases.push_back({name, kImplicitStage, implicit_bytes(*model),
-                         [implicit] { implicit->advance({kFrame}); }, nothing, threads});
+                         [implicit] { implicit->advance({kImplicitStep}); }, nothing, threads});
         cases.push_back({name, kLineariseStage, linearise_bytes(*model), [system] { system->linearise(); },
                          nothing, threads});
         cases.push_back(
@@ -242,8 +235,8 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
     cases.push_back({kOpenGl, kDividedStage, write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
                      [divided, step] { divided->advance({step}); }, finish});
     const auto implicit = std::make_shared<gpu::ImplicitSolver>(model);
-    cases.push_back(
-        {kOpenGl, kImplicitStage, implicit_bytes(m), [implicit] { implicit->advance({kFrame}); }, finish});
+    cases.push_back({kOpenGl, kImplicitStage, implicit_bytes(m),
+                     [implicit] { implicit->advance({kImplicitStep}); }, finish});
     const auto system = std::make_shared<GlSystem>(m);
     cases.push_back(
         {kOpenGl, kLineariseStage, linearise_bytes(m), [system] { system->linearise(); }, finish});

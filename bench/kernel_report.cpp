@@ -75,13 +75,11 @@ std::string kernel_tables(const KernelBench& bench) {
                    fmt::format("{:.2f}", t.bytes / t.ms.median / 1e6),
                    fmt::format("{:.2f}", 1e6 * t.ms.median / t.springs)});
     }
-    MarkdownTable ratios({"ratio", "", "wanted"}, {1});
-    for (const BenchRatio& r : bench.ratios()) ratios.add({r.what, fmt::format("{:.2f}", r.value), r.wanted});
-    return times.text() + "\n" + ratios.text();
+    return times.text() + "\n" + ratio_table(bench.ratios());
 }
 
 std::string kernel_json(const KernelBench& bench) {
-    Json stages = Json::array(), ratios = Json::array();
+    Json stages = Json::array();
     for (const KernelTime& t : bench.times) {
         stages.push_back({{"backend", t.backend},
                           {"stage", t.stage},
@@ -92,14 +90,12 @@ std::string kernel_json(const KernelBench& bench) {
                           {"bytes", t.bytes},
                           {"springs", t.springs}});
     }
-    for (const BenchRatio& r : bench.ratios())
-        ratios.push_back({{"what", r.what}, {"value", r.value}, {"wanted", r.wanted}});
     const Json document = {{"gelatin", {{"version", version()}, {"commit", commit()}}},
                            {"benchmark", "kernels"},
                            {"machine", machine_json(bench.machine)},
                            {"settings", {{"runs", bench.options.runs}}},
                            {"stages", stages},
-                           {"ratios", ratios}};
+                           {"ratios", ratios_json(bench.ratios())}};
     return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -6,6 +6,7 @@
 
 #include "bench/kernels.h"
 #include "bench/machine.h"
+#include "bench/ratios.h"
 #include "bench/samples.h"
 
 namespace gelatin {

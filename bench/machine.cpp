@@ -23,6 +23,12 @@ std::string cpu_name() {
     return "unknown";
 }
 
+double mean_load() {
+    double load = 0.0;
+    getloadavg(&load, 1);
+    return load;
+}
+
 std::string describe_opengl(const gl::DeviceInfo* device) {
     if (device == nullptr) return "none";
     std::string text = device->renderer + ", OpenGL " + device->version;
@@ -40,7 +46,8 @@ BenchMachine describe_bench_machine(const gl::DeviceInfo* device) {
             describe_opengl(device),
             GELATIN_COMPILER,
             GELATIN_BUILD_TYPE,
-            GELATIN_COMPILER_FLAGS};
+            GELATIN_COMPILER_FLAGS,
+            mean_load()};
 }
 
 void add_machine_rows(const BenchMachine& machine, MarkdownTable& table) {
@@ -48,13 +55,14 @@ void add_machine_rows(const BenchMachine& machine, MarkdownTable& table) {
     table.add({"OpenGL", machine.opengl});
     table.add(
         {"CPU", fmt::format("{}, {}, {}", machine.cpu, counted(machine.threads, "thread"), machine.simd)});
+    table.add({"load", fmt::format("{:.1f} in the minute before", machine.load)});
     table.add({"build", fmt::format("{}, {}: `{}`", machine.compiler, machine.build_type, machine.flags)});
 }
 
 nlohmann::ordered_json machine_json(const BenchMachine& machine) {
     return {{"cpu", machine.cpu},       {"threads", machine.threads},   {"simd", machine.simd},
             {"opengl", machine.opengl}, {"compiler", machine.compiler}, {"build_type", machine.build_type},
-            {"flags", machine.flags}};
+            {"flags", machine.flags},   {"load", machine.load}};
 }
 
 }  // namespace gelatin

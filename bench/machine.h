@@ -15,6 +15,7 @@ struct BenchMachine {
     std::string simd;    ///< instruction set of the CPU's kernels
     std::string opengl;  ///< renderer and version, and the number of threads set for llvmpipe; "none"
     std::string compiler, build_type, flags;
+    double load;  ///< processes that ran or wanted to, the mean of the minute before
 };
 
 /// @param device null without OpenGL

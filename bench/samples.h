@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 namespace gelatin {
@@ -13,12 +12,5 @@ struct BenchSummary {
 };
 /// @pre samples is not empty
 BenchSummary summarise(std::vector<double> samples);
-
-/// A figure, and its wanted value.
-struct BenchRatio {
-    std::string what;
-    double value;
-    std::string wanted;  ///< ">= 2"; empty for none
-};
 
 }  // namespace gelatin

@@ -21,7 +21,7 @@ constexpr double kSlow = 300.0;  // a step that takes longer [ms] ...
 constexpr int kSlowRuns = 3;     // ... is sampled this many times
 
 // A measurement in progress.
-struct Entry {
+struct ScalingEntry {
     ScalingResult result;
     std::unique_ptr<StagePlayer> player;
     int runs;
@@ -43,18 +43,18 @@ private:
                    const StageSystem& system) const {
         return scaling_label(scaling_case, method, system).find(bench_.options.only) != std::string::npos;
     }
-    Entry make_entry(const ScalingCase& scaling_case, const CollisionSettings& method,
-                     const StageSystem& system, const std::shared_ptr<const Model>& model) const;
+    ScalingEntry make_entry(const ScalingCase& scaling_case, const CollisionSettings& method,
+                            const StageSystem& system, const std::shared_ptr<const Model>& model) const;
 
     ScalingBench bench_;
     std::vector<StageSystem> systems_;
 };
 
-Entry ScalingBenchRun::make_entry(const ScalingCase& scaling_case, const CollisionSettings& method,
-                                  const StageSystem& system,
-                                  const std::shared_ptr<const Model>& model) const {
+ScalingEntry ScalingBenchRun::make_entry(const ScalingCase& scaling_case, const CollisionSettings& method,
+                                         const StageSystem& system,
+                                         const std::shared_ptr<const Model>& model) const {
     std::fprintf(stderr, "gelatin: %s\n", scaling_label(scaling_case, method, system).c_str());
-    Entry entry;
+    ScalingEntry entry;
     entry.player = std::make_unique<StagePlayer>(model, method, system, scaling_case.stages);
     ScalingResult& result = entry.result;
     result.part = scaling_case.part;
@@ -72,7 +72,7 @@ Entry ScalingBenchRun::make_entry(const ScalingCase& scaling_case, const Collisi
 void ScalingBenchRun::measure(const ScalingCase& scaling_case) {
     std::shared_ptr<const Model> model;
     double loading = 0.0;
-    std::vector<Entry> entries;
+    std::vector<ScalingEntry> entries;
     for (const CollisionSettings& method : scaling_case.methods) {
         for (const StageSystem& system : systems_) {
             if (!is_wanted(scaling_case, method, system)) continue;
@@ -86,10 +86,10 @@ void ScalingBenchRun::measure(const ScalingCase& scaling_case) {
         }
     }
     for (int run = 0; run < bench_.options.runs; ++run) {
-        for (Entry& entry : entries)
+        for (ScalingEntry& entry : entries)
             if (run < entry.runs) entry.result.samples.push_back(entry.player->sample(entry.result.steps));
     }
-    for (Entry& entry : entries) {
+    for (ScalingEntry& entry : entries) {
         const Measurement measured = entry.player->measure();
         for (const ObjectMeasure& object : measured.objects)
             entry.result.colliding_faces += object.colliding_faces;

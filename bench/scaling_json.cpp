@@ -36,16 +36,14 @@ Json result_json(const ScalingResult& result) {
 }  // namespace
 
 std::string scaling_json(const ScalingBench& bench) {
-    Json results = Json::array(), ratios = Json::array();
+    Json results = Json::array();
     for (const ScalingResult& result : bench.results) results.push_back(result_json(result));
-    for (const BenchRatio& ratio : bench.ratios())
-        ratios.push_back({{"what", ratio.what}, {"value", ratio.value}, {"wanted", ratio.wanted}});
     const Json document = {{"gelatin", {{"version", version()}, {"commit", commit()}}},
                            {"benchmark", "scaling"},
                            {"machine", machine_json(bench.machine)},
                            {"settings", {{"runs", bench.options.runs}}},
                            {"results", results},
-                           {"ratios", ratios}};
+                           {"ratios", ratios_json(bench.ratios())}};
     return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -85,12 +85,6 @@ std::string self_collision_table(const std::vector<const ScalingResult*>& result
     return table.text();
 }
 
-std::string ratio_table(const std::vector<BenchRatio>& ratios) {
-    MarkdownTable table({"", "ratio", "wanted"}, {1, 2});
-    for (const BenchRatio& ratio : ratios) table.add({ratio.what, format_figure(ratio.value), ratio.wanted});
-    return table.text();
-}
-
 struct PartReport {
     const char* title;
     std::string (*table)(const std::vector<const ScalingResult*>&);

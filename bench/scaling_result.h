@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/machine.h"
+#include "bench/ratios.h"
 #include "bench/samples.h"
 #include "bench/scaling.h"
 #include "bench/scaling_cases.h"

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "bench/contact.h"
 #include "bench/kernels.h"
 #include "bench/materials.h"
 #include "bench/paper.h"
@@ -120,6 +121,37 @@ void add_materials(CLI::App& bench) {
     materials->callback([options] { bench_materials(*options); });
 }
 
+void add_contact(CLI::App& bench) {
+    auto options = std::make_shared<ContactBenchOptions>();
+    CLI::App* contact =
+        bench.add_subcommand("contact", "Frames in which bodies press each other: ms, dispatches, bytes");
+    contact->add_option("--json", options->json, "Also write the figures to this file")
+        ->type_name("FILE.json");
+    contact->add_option("--report", options->report, "Also write a report")->type_name("FILE.md");
+    contact->add_option("--runs", options->runs, "Of each measurement; the median counts")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    contact->add_option("--scales", options->scales, "Sizes, as copies of each scene's bodies")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    contact->add_option("--frames", options->frames, "Frames that are timed at most, instead of each window")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
+    contact
+        ->add_option("--only", options->only,
+                     "Measure what has this in its name: \"pile\", \"A, 10x\", \"OpenGL\"; may be repeated")
+        ->type_name("PART")
+        ->allow_extra_args(false);
+    contact
+        ->add_option(
+            "--scenes", options->scenes,
+            "Folder of scene_a.toml, scene_b.toml, pile.toml and rain.toml; default: those of the sources")
+        ->type_name("DIR");
+    contact->add_flag("!--no-gl", options->use_gl, "Without OpenGL");
+    contact->callback([options] { bench_contact(*options); });
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
@@ -129,6 +161,7 @@ void add_bench_command(CLI::App& app) {
     add_kernels(*bench);
     add_scaling(*bench);
     add_materials(*bench);
+    add_contact(*bench);
 }
 
 }  // namespace gelatin

@@ -12,6 +12,7 @@
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
+#include "gl/dispatch_counter.h"
 #include "gl/hazards.h"
 #include "gl/program_interface.h"
 #include "gl/shader_source.h"
@@ -340,6 +341,7 @@ void Program::dispatch_groups(std::size_t groups) const {
     const std::size_t columns = (groups + rows - 1) / rows;
     use();
     if (hazard_probe != nullptr) hazard_probe->dispatches(id());
+    if (dispatch_counter != nullptr) dispatch_counter->count(state_->name);
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
     check_errors("glDispatchCompute");
 }
@@ -348,6 +350,7 @@ void Program::dispatch_indirect(unsigned arguments, std::size_t offset) const {
     use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments);
     if (hazard_probe != nullptr) hazard_probe->dispatches_indirectly(id(), arguments);
+    if (dispatch_counter != nullptr) dispatch_counter->count_indirect(state_->name, arguments, offset);
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     check_errors("glDispatchComputeIndirect");
 }

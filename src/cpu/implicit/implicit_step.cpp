@@ -112,6 +112,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         {
             const TimedStage part(timer, "advance_nodes.solve");
             system_.solve(islands_.of_bodies);
+            solve_counts_ += system_.counts;
         }
         if (own_ && is_torn(is_shortest)) {
             divide();

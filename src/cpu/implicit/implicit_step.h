@@ -81,6 +81,8 @@ public:
     double contact_energy() const { return energy_.in_contacts(); }
 
     const StepSystem<Real>& system() const { return system_; }
+    /// What all solves so far have cost.
+    const SolveCounts& solve_counts() const { return solve_counts_; }
 
 private:
     using Field = std::vector<Vec3<Real>>;
@@ -120,6 +122,7 @@ private:
     Restitution<Real> restitution_;
     EnergyAccount<Real> energy_;
     StepSystem<Real> system_;
+    SolveCounts solve_counts_;
     TimeScheme<Real> scheme_;
     std::uint32_t parts_ = 1;  // into which steps are divided
     Paces<Real> paces_;

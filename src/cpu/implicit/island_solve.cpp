@@ -314,6 +314,9 @@ SolveCounts IslandSolve<Real>::run() {
             rows_.find_tangents();
     }
     rigid_newton(tuning::kBalance);
+    std::uint64_t nodes = 0;
+    for (const std::uint32_t o : bodies_) nodes += system_.model_->objects[o].nodes.count;
+    counts_.multiplied_nodes = static_cast<std::uint64_t>(counts_.products) * nodes;
     return counts_;
 }
 

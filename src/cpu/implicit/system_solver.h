@@ -23,6 +23,8 @@ public:
     ContactForces contact_forces() override { return step_.contact_forces(); }
     /// What contacts and their friction hold [J].
     double contact_energy() const { return step_.contact_energy(); }
+    /// What the linear systems of all steps so far have cost.
+    const SolveCounts& solve_counts() const { return step_.solve_counts(); }
     HoldingForces holding_forces() override;
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override;
     std::string memory() override;

@@ -119,8 +119,10 @@ ContactForces BodyContacts::forces() const {
     row_forces_.dispatch(count);
     const std::vector<StepRow> rows_made = read(system_->buffers().rows.values);
     const std::vector<glm::vec4> of_rows = read(forces);
-    for (std::size_t r = 0; r < count; ++r)
-        add_row(rows_made[r], object_of_, glm::dvec3(of_rows[2 * r]), glm::dvec3(of_rows[2 * r + 1]), sums);
+    for (std::size_t r = 0; r < count; ++r) {
+        const glm::dvec3 normal(of_rows[2 * r]), friction(of_rows[2 * r + 1]);
+        if (normal + friction != glm::dvec3(0.0)) add_row(rows_made[r], object_of_, normal, friction, sums);
+    }
     return sums.take();
 }
 

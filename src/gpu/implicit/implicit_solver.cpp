@@ -9,6 +9,7 @@
 
 #include "core/archive.h"
 #include "core/log.h"
+#include "core/stage.h"
 #include "gl/context.h"
 #include "model/contact/contact_force_sums.h"
 #include "model/drive/held_up.h"
@@ -229,7 +230,7 @@ void ImplicitSolver::make_try() {
     StageTimer* const timer = timer_.for_parts();
     if (loads_ != nullptr) loads_->run(state_.from);
     const auto solve = [&] {
-        const TimedStage part(timer, "advance_nodes.solve");
+        const Stage part(timer, "advance_nodes.solve");
         system_.solve(state_.from);
     };
     if (!contacts_) {
@@ -238,22 +239,22 @@ void ImplicitSolver::make_try() {
         return end_.run(buffers_, loads_, timer);
     }
     {
-        const TimedStage part(timer, "advance_nodes.detect");
+        const Stage part(timer, "advance_nodes.detect");
         start_.predict(buffers_, loads_);
         contacts_->find(buffers_);
         start_.find_rows(buffers_, loads_);
     }
     {
-        const TimedStage part(timer, "advance_nodes.linearise");
+        const Stage part(timer, "advance_nodes.linearise");
         start_.linearise(buffers_, loads_);
     }
     solve();
     {
-        const TimedStage part(timer, "advance_nodes.finish");
+        const Stage part(timer, "advance_nodes.finish");
         contacts_->note();
         end_.finish(buffers_, loads_);
     }
-    const TimedStage part(timer, "advance_nodes.guard");
+    const Stage part(timer, "advance_nodes.guard");
     contacts_->guard(buffers_);
     end_.settle(buffers_);
     contacts_->remember(end_.changes());

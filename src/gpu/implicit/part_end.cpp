@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "core/stage.h"
 #include "model/shared_constants.h"
 
 namespace gelatin::gpu {
@@ -262,10 +263,10 @@ void PartEnd::finish(const ModelBuffers& model, const SumLoads* loads) const {
 
 void PartEnd::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
     {
-        const TimedStage part(timer, "advance_nodes.finish");
+        const Stage part(timer, "advance_nodes.finish");
         finish(model, loads);
     }
-    const TimedStage part(timer, "advance_nodes.guard");
+    const Stage part(timer, "advance_nodes.guard");
     if (has_colliders_) {
         model.bind_colliders(programs_.guard);
         run(programs_.guard, chunk_count_);

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "core/stage.h"
 #include "model/elasticity/wave_times.h"
 
 namespace gelatin::gpu {
@@ -121,11 +122,11 @@ void PartStart::end_step(const NodeBuffers& nodes) const {
 
 void PartStart::run(const ModelBuffers& model, const SumLoads* loads, StageTimer* timer) const {
     {
-        const TimedStage part(timer, "advance_nodes.detect");
+        const Stage part(timer, "advance_nodes.detect");
         predict(model, loads);
         find_rows(model, loads);
     }
-    const TimedStage part(timer, "advance_nodes.linearise");
+    const Stage part(timer, "advance_nodes.linearise");
     linearise(model, loads);
 }
 

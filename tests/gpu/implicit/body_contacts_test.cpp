@@ -127,6 +127,28 @@ TEST_F(BodyContactsTest, ForcesAreWeights) {
     EXPECT_NEAR(on_nodes.y, weight, 0.02 * weight);
 }
 
+std::size_t points_of(const ContactForces& forces) {
+    std::size_t points = 0;
+    for (const ContactForces::Between& between : forces.between) points += between.points;
+    return points;
+}
+
+// Rows that exert no force, of pairs that are only near, are no points. Rounding decides for a few.
+TEST_F(BodyContactsTest, PointsAreThoseThatPress) {
+    const SharedModel model = test::pushed_block();
+    gpu::ImplicitSolver solver = make_device_solver(model);
+    auto reference = test::make_solver<double>(model);
+    double points = 0.0, expected = 0.0;
+    for (int frame = 0; frame < 20; ++frame) {
+        test::advance(solver, *model, frame);
+        test::advance(reference, *model, frame);
+        points += static_cast<double>(points_of(solver.contact_forces()));
+        expected += static_cast<double>(points_of(reference.contact_forces()));
+    }
+    EXPECT_GT(expected, 0.0);
+    EXPECT_NEAR(points, expected, 0.05 * expected);
+}
+
 // [m]
 double farthest_move(const State& from, const State& to) {
     double most = 0.0;
