@@ -111,8 +111,8 @@ inline constexpr Mutant kSmallIslandMutants[] = {
 inline constexpr Mutant kSmallIslandRowMutants[] = {
     {"bodies_share_their_forces", "sim/implicit/solve_islands.comp", "if (island_parts[k].w == b)",
      "if (true)"},
-    {"rows_have_their_first_node_alone", "sim/implicit/solve_islands.comp", "j < 4; ++j) s += row.weights[j] * displacements",
-     "j < 1; ++j) s += row.weights[j] * displacements"},
+    {"rows_have_their_first_node_alone", "sim/implicit/solve_islands.comp",
+     "j < 4; ++j) s += row.weights[j] * displacements", "j < 1; ++j) s += row.weights[j] * displacements"},
     {"the_step_is_not_in_rows", "sim/implicit/solve_islands.comp", "slips[r].xyz + s)", "slips[r].xyz)"},
     {"steps_go_on_from_the_last_one", "sim/implicit/solve_islands.comp",
      "steps[k] = residuals[k] =", "residuals[k] ="},
