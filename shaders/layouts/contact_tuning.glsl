@@ -51,7 +51,7 @@ const float kLeastOfRounding = 8.0;
 const float kUsable = 0.95;
 const float kLeastShare = 0.05;
 const float kShortestPiece = 1.0 / 16.0;
-// Of a try. Scenes hardly ever need more; a part that does is halved.
+// Of a part, one a try. Scenes hardly ever need more; a part that does is halved.
 const uint kGuardPasses = 3u;
 // In each of so many rounds nodes are placed, and pairs of those that have moved are checked; at most 30.
 const uint kGuardRounds = 8u;

@@ -13,15 +13,13 @@
 #include "gelatin/error.h"
 #include "gl/debug.h"
 #include "gl/dispatch_counter.h"
+#include "gl/group_grid.h"
 #include "gl/hazards.h"
 #include "gl/program_interface.h"
 #include "gl/shader_source.h"
 
 namespace gelatin::gl {
 namespace {
-
-// What OpenGL promises for each dimension; more fails without a word on some drivers.
-constexpr std::size_t kMaxGroups = 65'535;
 
 // Owns a shader object until its program is linked.
 class Shader {
@@ -331,18 +329,16 @@ void Program::dispatch(std::size_t invocations) const {
 
 void Program::dispatch_groups(std::size_t groups) const {
     if (groups == 0) return;
-    const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
-    if (rows > kMaxGroups) {
+    const GroupGrid grid(groups);
+    if (grid.rows > kMostGroups) {
         throw GlError("a dispatch of " + std::to_string(groups) +
-                      " work groups is more than OpenGL's limit of " + std::to_string(kMaxGroups) +
+                      " work groups is more than OpenGL's limit of " + std::to_string(kMostGroups) +
                       " in each of two dimensions");
     }
-    // Rows of equal length leave fewer groups over than full rows and a rest.
-    const std::size_t columns = (groups + rows - 1) / rows;
     use();
     if (hazard_probe != nullptr) hazard_probe->dispatches(id());
     if (dispatch_counter != nullptr) dispatch_counter->count(state_->name);
-    glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
+    glDispatchCompute(static_cast<GLuint>(grid.columns), static_cast<GLuint>(grid.rows), 1);
     check_errors("glDispatchCompute");
 }
 

@@ -45,6 +45,9 @@ inline constexpr Mutant kFindPairsMutants[] = {
     {"ends_keep_all", "sim/implicit/find_lost.comp", "&& keeps(path_ends, tet, inverse_, rotation)", ""},
     {"lost_boxes_have_a_corner_each", "sim/implicit/find_lost.comp", "k < 4; ++k", "k < 1; ++k"},
     {"what_grew_is_forgotten", "sim/implicit/find_lost.comp", "if (grew) counts", "if (false) counts"},
+    {"calm_bodies_fall", "sim/implicit/find_paths.comp", "if (is_carried) d =", "if (false) d ="},
+    {"all_bodies_are_carried", "sim/implicit/find_paths.comp", "texelFetch(paces, 5 * int(o)).x != kMoving",
+     "true"},
 };
 
 }  // namespace gelatin::test

@@ -123,7 +123,5 @@ void main() {
     barrier();  // all have read the clock, and islands are written
     number_islands();
     set_clock(now);
-    if (now.goes_on == 0u) return;
-    barrier();  // the argument below is the last word
-    if (gl_LocalInvocationID.x == 0u) dispatches[kRows] = dispatch_invocations(now.row_count);
+    if (now.goes_on != 0u && gl_LocalInvocationID.x == 0u) dispatches[kRows] = dispatch_invocations(now.row_count);
 }

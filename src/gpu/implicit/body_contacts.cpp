@@ -121,7 +121,8 @@ ContactForces BodyContacts::forces() const {
     const std::vector<glm::vec4> of_rows = read(forces);
     for (std::size_t r = 0; r < count; ++r) {
         const glm::dvec3 normal(of_rows[2 * r]), friction(of_rows[2 * r + 1]);
-        if (normal + friction != glm::dvec3(0.0)) add_row(rows_made[r], object_of_, normal, friction, sums);
+        const glm::dvec3 none(0.0);
+        if (normal != none || friction != none) add_row(rows_made[r], object_of_, normal, friction, sums);
     }
     return sums.take();
 }

@@ -23,8 +23,8 @@ namespace gelatin::gpu {
 /// of bodies with rows in common is solved by itself. Newton's method: on rigid motions alone
 /// (rigid_newton.comp), then on all nodes, with conjugate gradients, then on rigid motions again. A small
 /// island takes one dispatch for all nodes (solve_islands.comp); others take three an iteration
-/// (solve_product.comp, solve_residual.comp, solve_direction.comp), if there are any. What the host does not
-/// know is what is needed: a dispatch behind the end of an island's solve does nothing to it.
+/// (solve_product.comp, solve_residual.comp, solve_direction.comp), if there are any. The host does not know
+/// how many are needed: each gives work groups to the next (large_islands.glsl).
 /// CPU twin: cpu::StepSystem.
 class StepSystem {
 public:

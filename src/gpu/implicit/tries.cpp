@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "gl/group_grid.h"
 #include "gpu/implicit/step_buffers.h"
 #include "model/shared_constants.h"
 
@@ -11,13 +12,10 @@ namespace {
 
 namespace slots = try_dispatches;
 
-// What OpenGL promises for each dimension.
-constexpr std::size_t kMaxGroups = 65'535;
-
 // Without work groups; `count` has those of a row.
 Dispatch waiting(std::size_t groups) {
-    const std::size_t rows = std::max<std::size_t>((groups + kMaxGroups - 1) / kMaxGroups, 1);
-    return {0, static_cast<std::uint32_t>(rows), 1, static_cast<std::uint32_t>((groups + rows - 1) / rows)};
+    const gl::GroupGrid grid(groups);
+    return {0, static_cast<std::uint32_t>(grid.rows), 1, static_cast<std::uint32_t>(grid.columns)};
 }
 
 void wait_for_try() {

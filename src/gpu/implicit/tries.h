@@ -35,7 +35,7 @@ public:
     void set_clock(const StepClock& clock);
     /// For what else reads it.
     const gl::Buffer<StepClock>& clock_buffer() const { return clock_; }
-    /// As the device counts the elements of a list. @param lanes of a work group
+    /// For tests: as the device counts the elements of a list. @param lanes of a work group
     void set_count(std::uint32_t dispatch, std::uint32_t count, std::uint32_t lanes = 64);
 
 private:

@@ -168,6 +168,20 @@ double given_up_error() {
                     after.motions != before.motions);
 }
 
+// What is calm is expected to go on by its velocities, which are those of `at`, and not to fall.
+double calm_error(const PairCase& at) {
+    PairCase calm = at;
+    calm.is_calm = true;
+    const FoundPairs found = PairsOnGpu(calm).run();
+    double worst = 0.0;
+    for (std::size_t n = 0; n < found.path_ends.size(); ++n) {
+        const glm::dvec3 velocity(at.model->velocities[n]);
+        const glm::dvec3 end = glm::dvec3(begins_of(at)[n]) + kPairStep * velocity;
+        worst = std::max(worst, glm::distance(glm::dvec3(found.path_ends[n]), end));
+    }
+    return worst / 1e-6;
+}
+
 // What the guard asks for: other paths of some nodes; what has lost distances where they end goes on from
 // what had.
 double guarded_error() {
@@ -217,6 +231,7 @@ Scenarios pair_scenarios() {
             compared("dozen_fast", [] { return crowd(12, 20.0); }),
             compared(
                 "many", [] { return crowd(270, 1.0); }, 5000),
+            {"calm_bodies_go_on", [] { return calm_error(crowd(12, 20.0)); }},
             compared("pressed", [] { return pressed(true, true, true); }),
             compared("pressed_in_a_place", [] { return pressed(false, true, true); }),
             compared("pressed_at_first", [] { return pressed(false, true, false); }),

@@ -43,6 +43,9 @@ PairsOnGpu::PairsOnGpu(const PairCase& at)
     std::vector<glm::vec4> predicted;
     for (const glm::vec3& d : at.predicted) predicted.emplace_back(d, 1.0f);
     state_.predicted.values.upload(predicted);
+    std::vector<BodyPace> paces(model_.body_count());
+    for (BodyPace& pace : paces) pace.pace = at.is_calm ? 1 : 0;
+    state_.paces.values.upload(paces);
     poison(pairs_.counts);
     poison(pairs_.slot_starts.values);
     poison(pairs_.slots.values);
@@ -54,7 +57,7 @@ PairsOnGpu::PairsOnGpu(const PairCase& at)
 
 void PairsOnGpu::set_clock(std::uint32_t guards, bool goes_on) {
     StepClock clock{};
-    clock.size = 1.0f / 60.0f;
+    clock.size = static_cast<float>(kPairStep);
     clock.step = case_.is_shortest ? clock.size / 256.0f : clock.size;
     clock.guards = guards;
     clock.goes_on = goes_on ? 1 : 0;

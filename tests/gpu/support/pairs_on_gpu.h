@@ -10,6 +10,9 @@
 
 namespace gelatin::test {
 
+/// The length of a step [s].
+constexpr double kPairStep = 1.0 / 60.0;
+
 /// Where a part of a step begins, and where nodes would go in it.
 struct PairCase {
     std::shared_ptr<const Model> model;  ///< at the start
@@ -17,6 +20,7 @@ struct PairCase {
     bool own = true;                     ///< whether bodies meet themselves
     std::vector<glm::vec3> moved = {};   ///< nodes from the start, where the part begins; none: not at all
     bool is_shortest = false;            ///< of all parts
+    bool is_calm = false;                ///< all bodies
 };
 
 /// What is found on the device.
