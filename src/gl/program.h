@@ -82,7 +82,7 @@ public:
     }
     /// To a sampler of any kind. Whether the texture is deleted meanwhile is not noticed.
     /// @param sampler_id a sampler object; 0: the texture's own parameters
-    void bind_texture(std::string_view sampler, unsigned texture, unsigned sampler_id = 0) const;
+    void bind_texture(std::string_view name, unsigned texture, unsigned sampler_id = 0) const;
     /// To an input of the vertex shader, of which it is read in order.
     void bind_input(std::string_view input, const Buffer<glm::vec4>& vertices) const;
     /// The same; each value is four bytes, red first, that stand for 0 to 1.
@@ -115,10 +115,10 @@ public:
 private:
     struct State;
 
-    void bind_block(std::string_view block, const ObjectName& buffer) const;
-    void bind_texels(std::string_view sampler, const ObjectName& texture) const;
-    void bind_vertices(std::string_view input, const ObjectName& buffer, bool is_color) const;
-    int location(std::string_view uniform) const;
+    void bind_block(std::string_view name, const ObjectName& buffer) const;
+    void bind_texels(std::string_view name, const ObjectName& texture) const;
+    void bind_vertices(std::string_view name, const ObjectName& buffer, bool is_color) const;
+    int location(std::string_view name) const;
     void check_declared(std::string_view name) const;
 
     std::unique_ptr<State> state_;  // null for a default-made program
