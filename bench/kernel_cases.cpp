@@ -141,7 +141,9 @@ private:
 class GlSystem {
 public:
     explicit GlSystem(const Model& model)
-        : buffers_(model), nodes_(model.positions, model.velocities), system_(model, tries_) {
+        : buffers_(model),
+          nodes_(model.positions, model.velocities),
+          system_(model, tries_, {}, packing::kChunksOfSmallIsland) {
         StepClock clock{};
         clock.step = 1.0f / kInversePart;
         clock.goes_on = 1;

@@ -1,7 +1,7 @@
 // Sums of forces and moments over a work group of kLanes, for kernels that have its other sums, too.
 #include "sim/implicit/group_sums.glsl"
 
-shared vec4 lane_moments[kLanes], row_moments[kLanes / 16u], group_moment;
+shared vec4 lane_moments[kLanes], row_moments[kLanes / 16u];
 
 ResidualSums sum_by_lanes(vec4 force, vec3 moment) {
     uint lane = gl_LocalInvocationID.x;
@@ -18,15 +18,10 @@ ResidualSums sum_by_lanes(vec4 force, vec3 moment) {
         row_moments[lane] = sum.moment;
     }
     barrier();
-    if (lane == 0u) {
-        ResidualSums sum = ResidualSums(vec4(0.0), vec4(0.0));
-        for (uint k = 0u; k < kLanes / 16u; ++k) {
-            sum.force += row_parts[k];
-            sum.moment += row_moments[k];
-        }
-        group_sum = sum.force;
-        group_moment = sum.moment;
+    ResidualSums sum = ResidualSums(vec4(0.0), vec4(0.0));
+    for (uint k = 0u; k < kLanes / 16u; ++k) {
+        sum.force += row_parts[k];
+        sum.moment += row_moments[k];
     }
-    barrier();
-    return ResidualSums(group_sum, group_moment);
+    return sum;
 }

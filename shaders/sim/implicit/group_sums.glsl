@@ -1,6 +1,6 @@
 // Sums and maxima over a work group of kLanes, in a fixed order; all of its invocations get the same bits. Between two calls no barrier
 // is needed: what one reads after its last barrier the next writes after its first.
-shared vec4 lane_parts[kLanes], row_parts[kLanes / 16u], group_sum;
+shared vec4 lane_parts[kLanes], row_parts[kLanes / 16u];
 
 vec4 sum_over_group(vec4 own) {
     uint lane = gl_LocalInvocationID.x;
@@ -12,13 +12,9 @@ vec4 sum_over_group(vec4 own) {
         row_parts[lane] = sum;
     }
     barrier();
-    if (lane == 0u) {
-        vec4 sum = vec4(0.0);
-        for (uint k = 0u; k < kLanes / 16u; ++k) sum += row_parts[k];
-        group_sum = sum;
-    }
-    barrier();
-    return group_sum;
+    vec4 sum = vec4(0.0);
+    for (uint k = 0u; k < kLanes / 16u; ++k) sum += row_parts[k];
+    return sum;
 }
 
 float sum_over_group(float own) { return sum_over_group(vec4(own, 0.0, 0.0, 0.0)).x; }

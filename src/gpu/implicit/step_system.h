@@ -32,8 +32,7 @@ public:
     /// @param small_chunks of nodes that a small island has at most; 0: none is small
     /// @pre small_chunks is at most packing::kChunksOfSmallIsland
     /// @param tries has to live as long; it solves where these make a part
-    StepSystem(const Model& model, Tries& tries, const RowCapacity& capacity = {},
-               std::uint32_t small_chunks = packing::kChunksOfSmallIsland);
+    StepSystem(const Model& model, Tries& tries, const RowCapacity& capacity, std::uint32_t small_chunks);
 
     ElasticSystem elastic;
     /// m / h^2 (y - x) + f [N]; w: m / h^2 [N/m], 0 where a node is held; [nodes]

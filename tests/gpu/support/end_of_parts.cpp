@@ -96,7 +96,7 @@ public:
           buffers_(model_),
           surface_(make_contact_surface(model_, CollisionSettings{.restitution = at.restitution})),
           state_(model_, surface_),
-          system_(model_, state_.tries, capacity_for(at)),
+          system_(model_, state_.tries, capacity_for(at), 0),  // solves of all islands end alike
           end_(model_, state_, system_, at.contacts ? &surface_ : nullptr),
           reference_(at.model, at.restitution, at.contacts),
           pulls_(model_.node_count()) {
