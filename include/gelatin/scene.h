@@ -346,6 +346,29 @@ struct ColliderDescription {
     std::optional<Axis> up = {};                      ///< as ObjectDescription::up; not for planes
 };
 
+/// A ball joint. The point moves with what is there of both sides.
+struct AttachedPoint {
+    glm::dvec3 at;  ///< [m], at the start
+};
+/// A hinge: all points of a line segment.
+struct AttachedLine {
+    glm::dvec3 from, to;  ///< [m], at the start
+};
+
+/// Keeps points of an object where they are in another one, in a collider, or in space. Where it is glued,
+/// surfaces do not press each other. For SolverKind::implicit.
+struct AttachmentDescription {
+    std::string name = {};  ///< in messages; empty: "attachment 1", by its place in the scene
+    std::string object;     ///< a name in Scene::objects
+    std::string to = {};    ///< another object's name, or a collider's; empty: where it is in space
+    /// Which points: of a region, the object's nodes in it. None: the nodes of its surface that are near what
+    /// it is attached to, by a quarter of its median edge.
+    std::variant<std::monostate, Region, AttachedPoint, AttachedLine> where = {};
+    double compliance = 0.0;  ///< of the whole attachment [m/N], >= 0; 0: as stiff as the bodies
+    std::optional<double> break_force = {};  ///< at which it breaks [N], > 0; empty: never
+    int line = 0;                            ///< in the scene file, for later messages
+};
+
 struct CameraDescription {
     glm::dvec3 eye;               ///< [m]
     glm::dvec3 target;            ///< [m]
@@ -361,6 +384,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<ObjectDescription> objects;
     std::vector<ColliderDescription> colliders;
+    std::vector<AttachmentDescription> attachments;
     std::optional<CameraDescription> camera;  ///< empty: frames the scene by itself
     /// Meshes that were made of its shapes before, and are used for these: those of a recording. Null: none.
     std::shared_ptr<const SceneMeshes> meshes = {};
