@@ -91,6 +91,13 @@ struct HoldingForce {
     double torque[3] = {};   ///< on the object, about the centre of the nodes [N m]
 };
 
+/// What an attachment does when the last step has ended.
+struct AttachmentStatus {
+    std::string name;        ///< AttachmentDescription::name, or "attachment 1", by its place in the scene
+    double force[3] = {};    ///< on its object [N]; of a broken one, the last one
+    bool is_broken = false;  ///< for good
+};
+
 /// The measurements of one frame. SI units.
 struct FrameStatistics {
     int frame = 0;
@@ -106,6 +113,7 @@ struct FrameStatistics {
     std::optional<ProximityStatistics> proximities;  ///< of the last step; empty without a proximity radius
     std::vector<ContactForce> contact_forces;        ///< by object, then others, then colliders
     std::vector<HoldingForce> holding_forces;        ///< in the order of Simulator::held_nodes
+    std::vector<AttachmentStatus> attachments;       ///< in the order of Scene::attachments
 };
 
 /// Node positions and velocities on the host. Nodes of colliders' surfaces come after those of bodies.
@@ -223,6 +231,15 @@ public:
     /// Moves a pull's target [m]. @param pull index in the last set_pulls @throws InvalidInput if there is
     /// none
     void move_pull(std::size_t pull, const glm::dvec3& target);
+
+    /// Attaches an object from now on, where everything is now: regions, points and lines are in world
+    /// coordinates at present. Scene::attachments has it, too. Not part of checkpoints; reset() removes it.
+    /// @return its place in Scene::attachments @throws InvalidInput as validate(), and if there is no node
+    std::size_t attach(const AttachmentDescription& attachment);
+    /// Breaks an attachment for good, until reset(). @throws InvalidInput if there is none
+    void detach(std::size_t attachment);
+    /// In the order of Scene::attachments; empty for recordings.
+    std::vector<AttachmentStatus> attachments() const;
 
     /// Called at the begin and at the end of each step, on its thread; empty: not any more. It may read and
     /// change the state, but not step. What it throws comes out of step(); if that is at the end, the step

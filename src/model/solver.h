@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <glm/vec4.hpp>
 #include <limits>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "core/stage_timer.h"
 #include "gelatin/pull.h"
 #include "gelatin/scene.h"
+#include "model/drive/attachment.h"
 #include "model/model.h"
 
 namespace gelatin {
@@ -126,6 +128,10 @@ public:
     virtual void move_pull(std::size_t pull, const glm::dvec3& target) = 0;
     /// Forces that act on nodes from now on [N], shape [nodes], or empty.
     virtual void set_forces(std::span<const glm::vec3> forces) = 0;
+    /// In place of all that there were. @pre none, but for a solver of implicit steps on the CPU
+    virtual void set_attachments([[maybe_unused]] std::vector<Attachment> attachments) {
+        assert(attachments.empty());
+    }
 
     /// Checks all nodes after the step of this number. Keeps the record of the first step after which nodes
     /// are not finite, or have more kinetic energy than `most_energy` each [J]; pinned nodes may have any
@@ -149,6 +155,9 @@ public:
     /// What pins and handles exert at present; zero before the first step. Empty without any, and from
     /// solvers that do not find it.
     virtual HoldingForces holding_forces() = 0;
+
+    /// Of all that were set; waits for nothing.
+    virtual std::vector<AttachmentForce> attachment_forces() { return {}; }
 
     /// The handles with nodes that bodies keep from where their poses have them, each an index in
     /// Model::handles; none without CollisionResponse::contact. Waits for a

@@ -77,6 +77,14 @@ Json holding_forces_json(const std::vector<HoldingForce>& forces, const RunRepor
     return list;
 }
 
+Json attachments_json(const std::vector<AttachmentStatus>& attachments) {
+    Json list = Json::array();
+    for (const AttachmentStatus& attachment : attachments)
+        list.push_back(
+            {{"name", attachment.name}, {"force", attachment.force}, {"is_broken", attachment.is_broken}});
+    return list;
+}
+
 Json frame_json(const FrameStatistics& frame, const RunReport& report) {
     const std::vector<std::string>& objects = report.objects;
     Json volume_ratio = Json::object();
@@ -98,6 +106,7 @@ Json frame_json(const FrameStatistics& frame, const RunReport& report) {
         json["contact_forces"] = contact_forces_json(frame.contact_forces, report);
     if (!frame.holding_forces.empty())
         json["holding_forces"] = holding_forces_json(frame.holding_forces, report);
+    if (!frame.attachments.empty()) json["attachments"] = attachments_json(frame.attachments);
     return json;
 }
 

@@ -8,6 +8,7 @@
 #include "cpu/make_solver.h"
 #include "gl/program.h"
 #include "gpu/make_solver.h"
+#include "model/assembly/attachments.h"
 #include "model/assembly/model_check.h"
 #include "model/assembly/start_state.h"
 #include "model/explicit/stability.h"
@@ -28,6 +29,8 @@ Simulation::Simulation(const Scene& of, std::shared_ptr<const Model> from, const
         State state = first_state();
         if (move_bodies_apart(state.positions, "at the start")) start_state = std::move(state);
     }
+    attachments = make_attachments(scene, *model, first_state().positions);
+    attachments_at_start = attachments.size();
     begin();
     for (const std::string& line : check_model(*model, of, clock.step_size())) log_warning(line);
     for (const std::string& line : check_starts(*model, of, first_state().positions)) log_warning(line);
@@ -36,13 +39,16 @@ Simulation::Simulation(const Scene& of, std::shared_ptr<const Model> from, const
 Simulation::Simulation(const Simulation& like)
     : Impl(like.scene, like.model, like.options, like.clock.substeps()),
       start_state(like.start_state),
-      unpinned(like.unpinned) {
+      unpinned(like.unpinned),
+      attachments(make_attachments(scene, *model, first_state().positions)),
+      attachments_at_start(attachments.size()) {
     assert(!like.context && like.pins.empty());
     begin();
 }
 
 void Simulation::begin() {
     solver = make_solver(scene, model);
+    set_attachments();
     if (!start_state) return;
     solver->write_state(*start_state);
     watch->begin(*start_state, {});
@@ -61,7 +67,8 @@ BackendSolver Simulation::make_solver(const Scene& of, const std::shared_ptr<con
     if (!choose_gl(options, context))
         return timed(std::shared_ptr(
             cpu::make_solver<float>(from, settings.solver, settings.forces, of.collision, implicit)));
-    if (!has_contacts(*from, of.collision) || makes_contacts_on_device())
+    // Attachments are rows of the host's steps alone.
+    if (attachments.empty() && (!has_contacts(*from, of.collision) || makes_contacts_on_device()))
         return timed(std::shared_ptr(
             gpu::make_solver(from, settings.solver, settings.forces, of.collision, implicit)));
     return timed(
@@ -78,6 +85,7 @@ void Simulation::step() {
     clock.count_step();
     ++revision;
     look_for_standstills();
+    look_for_broken();
     const Moment end = clock.now();
     {
         const Stage stage(solver->stage_timer(), "watch_nodes");
@@ -117,6 +125,10 @@ void Simulation::reset() {
     if (!pins.empty()) rebuild(scene, unpinned, {});
     drags.restart();
     handle_clocks.restart();
+    attachments.resize(attachments_at_start);
+    scene.attachments.resize(attachments_at_start);
+    for (Attachment& attachment : attachments) attachment.is_broken = false;
+    set_attachments();
     take_state(first_state(), {});
 }
 
@@ -132,6 +144,8 @@ void Simulation::take_state(const State& state, const Moment& moment) {
     discard_pending();
     standstills.restart();
     solver->write_state(state);
+    const std::vector<AttachmentForce> found = solver->attachment_forces();
+    for (std::size_t a = 0; a < found.size(); ++a) attachments[a].is_broken = found[a].is_broken;
     ++revision;
     clock.go_on_from(moment);
     watch->begin(state, clock.now());

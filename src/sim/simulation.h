@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/drive/attachment.h"
 #include "model/drive/with_pins.h"
 #include "sim/simulator_impl.h"
 #include "sim/standstills.h"
@@ -16,7 +17,9 @@ struct Simulation final : SimulatorInternals::Impl {
     std::shared_ptr<const Model> unpinned;  // the model without the pins of programs
     std::vector<AddedPin> pins;
     std::vector<Pull> pulls;
-    std::vector<glm::vec3> forces;  // [N], shape [nodes]; empty: none
+    std::vector<glm::vec3> forces;        // [N], shape [nodes]; empty: none
+    std::vector<Attachment> attachments;  // those of the scene, then those of programs
+    std::size_t attachments_at_start = 0;
     Standstills standstills;
 
     /// @pre the scene is valid, and the model is what build_model makes of it
@@ -39,6 +42,8 @@ struct Simulation final : SimulatorInternals::Impl {
     /// Bodies that never pass through each other have to be apart. @return whether any was moved
     /// @throws InvalidInput if they cannot be moved apart
     bool move_bodies_apart(std::vector<glm::vec4>& positions, const char* when) const;
+    /// Gives the solver the attachments.
+    void set_attachments();
     /// Makes the solver's tables anew, and goes on where it is.
     void rebuild(const Scene& of, std::shared_ptr<const Model> from, std::vector<AddedPin> added);
 
@@ -48,6 +53,7 @@ private:
     std::vector<HandleMotion> move_held_nodes();
     std::vector<std::uint32_t> find_held_up() const;
     void look_for_standstills();
+    void look_for_broken();
     void discard_pending();
     void carry_over_to(const Model& next, const std::vector<AddedPin>& added, State& state, Drags& next_drags,
                        HandleClocks& next_clocks) const;

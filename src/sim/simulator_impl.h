@@ -36,6 +36,7 @@ struct PendingStatistics {
     std::optional<std::size_t> contacts;  // of colliders; empty: its solver finds no forces
     std::vector<ContactForce> contact_forces;
     std::vector<HoldingForce> holding_forces;
+    std::vector<AttachmentStatus> attachments;
 };
 
 /// All that a Simulator owns, whether it simulates (Simulation) or plays a recording (Playback).
@@ -91,6 +92,7 @@ struct Simulator::Impl {
     Checkpoint checkpoint() const;
     Moment moment_of(const Checkpoint& checkpoint) const;
     void warn_of_losses(const Measurement& measured);
+    std::vector<AttachmentStatus> attachment_states() const;
 };
 
 }  // namespace gelatin

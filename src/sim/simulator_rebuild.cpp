@@ -79,6 +79,7 @@ void Simulation::rebuild(const Scene& of, std::shared_ptr<const Model> from, std
     copies = {};
     solver->set_pulls(pulls);
     solver->set_forces(forces);
+    set_attachments();
     take_state(state, moment);
 }
 

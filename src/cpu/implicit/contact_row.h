@@ -21,8 +21,10 @@ template <class Real>
 struct ContactRow {
     static constexpr Real kLeastGap = static_cast<Real>(tuning::kLinearGap);  ///< of the reach
 
-    std::array<std::uint32_t, 4> nodes{};
-    std::array<Real, 4> weights{};
+    static constexpr std::uint32_t kMostNodes = 8;  ///< four of a contact
+
+    std::array<std::uint32_t, kMostNodes> nodes{};
+    std::array<Real, kMostNodes> weights{};
     std::uint32_t count = 0;              ///< of nodes
     std::uint32_t object = 0, other = 0;  ///< of the sides; kNoNode: a plane
     Vec3<Real> normal{0};                 ///< n, from the first side to the second, unit
@@ -35,6 +37,10 @@ struct ContactRow {
     Vec3<Real> hold{0};     ///< lambda: friction on the second side, reversed, when the step begins [N]
     Real limit = 0;         ///< L: friction holds at most so much [N]
     std::uint64_t key = 0;  ///< of the same contact in the next step
+    /// Of which this is a tie, and no contact: it never presses, and what holds it has no limit.
+    std::uint32_t attachment = kNoNode;
+
+    bool is_tie() const { return attachment != kNoNode; }
 
     /// Of the colliders, where the first side is a plane.
     std::uint32_t plane() const { return static_cast<std::uint32_t>(key >> 31 & 0x7FFFFFFFu); }

@@ -60,14 +60,14 @@ void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weigh
 
 template <class Real>
 void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>> pairs,
-                             std::vector<ContactRow<Real>>& rows) {
+                             const AttachmentRows<Real>& attachments, std::vector<ContactRow<Real>>& rows) {
     rows.clear();
     new_rows_.clear();
     nearest_gaps_.clear();
     const FeasibleRegion<Real> region(*model_, *surface_, start.positions);
     for (const NearPair<Real>& near : pairs) {
         const ContactPair& pair = near.pair;
-        if (!(near.gap > Real(0))) continue;
+        if (!(near.gap > Real(0)) || attachments.are_tied(pair)) continue;
         const Vec3<Real> apart = near.gap * near.normal;
         Real weight = region.weight(pair, apart, near.weights);
         if (!pair.is_edges() && !(std::min({near.weights.y, near.weights.z, near.weights.w}) > Real(0)))
@@ -113,7 +113,7 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
     for (std::uint32_t c = 0; c < model_->colliders.size(); ++c) {
         const Collider& collider = model_->colliders[c];
         for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
-            if (start.compliances[n] == Real(0)) continue;
+            if (start.compliances[n] == Real(0) || attachments.is_tied_to_plane(n, c)) continue;
             const SurfaceDistance<Real> to = surface_distance(collider, Vec3<Real>(start.positions[n]));
             ContactRow<Real> row;
             row.nodes[0] = n;
@@ -156,6 +156,7 @@ void ContactRows<Real>::note(std::span<const ContactRow<Real>> rows,
         if (asleep[model_->is_body(memory.other) ? memory.other : memory.object] != 0)
             noted_.push_back(memory);
     for (const ContactRow<Real>& row : rows) {
+        if (row.is_tie()) continue;
         const Vec3<Real> s = relative<Real>(row, displacements);
         ContactRow<Real> now = row;
         now.limit = row.friction * row.pressing(s);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/archive.h"
+#include "cpu/implicit/attachment_rows.h"
 #include "cpu/implicit/contact_row.h"
 #include "cpu/implicit/find_pairs.h"
 #include "cpu/nodes.h"
@@ -31,8 +32,10 @@ public:
 
     ContactRows(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface);
 
-    /// @param pairs that were found for the step @param rows output
-    void make(const Start& start, std::span<const NearPair<Real>> pairs, std::vector<ContactRow<Real>>& rows);
+    /// @param pairs that were found for the step @param attachments what these tie together does not press
+    /// @param rows output
+    void make(const Start& start, std::span<const NearPair<Real>> pairs,
+              const AttachmentRows<Real>& attachments, std::vector<ContactRow<Real>>& rows);
     /// What contacts hold now, which remember() makes what they held before. @param displacements of nodes
     /// [m] @param asleep bodies whose contacts, which have no rows, hold what they held
     void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> displacements,

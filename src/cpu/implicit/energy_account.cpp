@@ -114,6 +114,7 @@ double EnergyAccount<Real>::work_on_rows(const Step& step, const ContactRow<Real
         if (step.previous.positions[row.nodes[k]].w == Real(0))
             moved += row.weights[k] * step.displacements[row.nodes[k]];
     const auto belt = [&](std::uint32_t object) {
+        if (row.is_tie()) return Vec3<Real>(0);
         return step.length * Vec3<Real>(model_->surfaces[object - model_->body_count()].velocity);
     };
     if (row.object != kNoNode && !model_->is_body(row.object)) moved -= belt(row.object);

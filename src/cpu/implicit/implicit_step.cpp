@@ -23,6 +23,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       object_of_(objects_of_nodes(*model_)),
       pairs_(model_, surface_, own),
       rows_(model_, surface_),
+      attachments_(model_),
       guard_(model_, surface_),
       restitution_(model_, surface_),
       energy_(model_),
@@ -61,6 +62,7 @@ void ImplicitStep<Real>::archive(Archive& archive) {
     paces_.archive(archive);
     archive.array(held_counts_);
     rows_.archive(archive);
+    attachments_.archive(archive);
     restitution_.archive(archive);
     energy_.archive(archive);
     archive.list(acting_);  // bodies asleep make no step that would find them again
@@ -92,7 +94,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             const bool is_found = damps || detect(previous, is_shortest);
             if (is_found)
                 rows_.make({previous.positions, expected_, compliances_, slacks_, step_, scheme_.last_step()},
-                           pairs_.pairs(), system_.rows);
+                           pairs_.pairs(), attachments_, system_.rows);
             if (wake_near(input, previous)) continue;
             parts_ = paces_.count_parts(system_.rows);
             if (is_found && shorten(input)) continue;
@@ -103,6 +105,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         }
         {
             const TimedStage part(timer, "advance_nodes.linearise");
+            attachments_.add(previous.positions, compliances_, asleep_, system_.rows);
             islands_.find<Real>(*model_, system_.rows, previous,
                                 !input.load_forces.empty() || input.pulls != nullptr);
             has_past = paces_.choose(islands_, step_, damps || is_shortest, system_.rows, scheme_);
@@ -154,6 +157,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         }
         energy_.settle(islands_, current);
         rows_.remember();
+        attachments_.break_overloaded();
         const double gravity = glm::length(glm::dvec3(model_->gravity));
         if (restitution_.run(
                 {static_cast<double>(input.step), 2.0 * tuning::kRestingFall * gravity, system_.rows,
@@ -468,6 +472,7 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
                                 Nodes<Real>& current) {
     Field& d = system_.displacements;
     rows_.note(system_.rows, d, asleep_);
+    attachments_.note(system_.rows, d, asleep_);
     Field forces(d.size(), Vec3<Real>(0));  // of all but elements and gravity
     for (std::size_t n = 0; n < input.load_forces.size(); ++n) forces[n] = Vec3<Real>(input.load_forces[n]);
     std::erase_if(acting_, [&](const Acting& acting) { return !is_asleep(acting.row); });
@@ -501,6 +506,7 @@ ContactForces ImplicitStep<Real>::contact_forces() const {
     ContactForceSums sums(*model_);
     for (const Acting& acting : acting_) {
         const ContactRow<Real>& row = acting.row;
+        if (row.is_tie()) continue;
         const glm::dvec3 normal(acting.normal), friction(acting.friction);
         if (row.object == kNoNode) {
             sums.add(row.other, row.plane(), true, normal, friction);

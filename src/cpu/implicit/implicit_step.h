@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/archive.h"
 #include "core/stage_timer.h"
 #include "cpu/drive/pulls.h"
+#include "cpu/implicit/attachment_rows.h"
 #include "cpu/implicit/contact_rows.h"
 #include "cpu/implicit/energy_account.h"
 #include "cpu/implicit/find_pairs.h"
@@ -69,6 +71,8 @@ public:
 
     /// What presses objects at the end of the last step.
     ContactForces contact_forces() const;
+    void set_attachments(std::vector<Attachment> attachments) { attachments_.set(std::move(attachments)); }
+    std::vector<AttachmentForce> attachment_forces() const { return attachments_.forces(); }
     /// Of elements, contacts and hands on held nodes in the last step.
     /// @param forces output [N], shape [nodes]; empty before it. Those of bodies asleep stay.
     void find_forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous,
@@ -118,6 +122,7 @@ private:
     std::vector<std::uint32_t> object_of_;
     FindPairs<Real> pairs_;
     ContactRows<Real> rows_;
+    AttachmentRows<Real> attachments_;
     Guard<Real> guard_;
     Restitution<Real> restitution_;
     EnergyAccount<Real> energy_;

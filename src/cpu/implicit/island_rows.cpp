@@ -56,8 +56,9 @@ void IslandRows<Real>::find_chords(std::span<const Vec3<Real>> expected_slips) c
 
 template <class Real>
 void IslandRows<Real>::set_limits() const {
-    for_each_index(count(),
-                   [&](std::size_t r) { rows[r].limit = rows[r].friction * rows[r].pressing(slips[r]); });
+    for_each_index(count(), [&](std::size_t r) {
+        if (!rows[r].is_tie()) rows[r].limit = rows[r].friction * rows[r].pressing(slips[r]);
+    });
 }
 
 template <class Real>

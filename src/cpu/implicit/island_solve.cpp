@@ -46,8 +46,8 @@ template <class Real>
 Vec3<Real> IslandSolve<Real>::of_rows(std::uint32_t node) const {
     Vec3<Real> sum(0);
     for (std::uint32_t e = system_.row_starts_[node]; e < system_.row_starts_[node + 1]; ++e) {
-        const std::uint32_t entry = system_.row_entries_[e];
-        sum += system_.rows[entry / 4].weights[entry % 4] * system_.row_forces_[entry / 4];
+        const auto [row, place] = system_.row_entries_[e];
+        sum += system_.rows[row].weights[place] * system_.row_forces_[row];
     }
     return sum;
 }
@@ -67,9 +67,9 @@ void IslandSolve<Real>::prepare_preconditioner(bool only_rows) {
         SymmetricMatrix<Real> block = system_.elastic.diagonal()[n];
         block.add_identity(system_.inertia[n]);
         for (std::uint32_t e = system_.row_starts_[n]; e < system_.row_starts_[n + 1]; ++e) {
-            const std::uint32_t entry = system_.row_entries_[e];
-            const Real weight = system_.rows[entry / 4].weights[entry % 4];
-            const SymmetricMatrix<Real>& stiffness = system_.tangents_[entry / 4].stiffness;
+            const auto [row, place] = system_.row_entries_[e];
+            const Real weight = system_.rows[row].weights[place];
+            const SymmetricMatrix<Real>& stiffness = system_.tangents_[row].stiffness;
             block.diagonal += weight * weight * stiffness.diagonal;
             block.beside += weight * weight * stiffness.beside;
         }

@@ -43,7 +43,8 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
     std::vector<Pace> paces(model_->body_count(), Pace::still);
     std::vector<std::uint8_t> is_struck(model_->body_count()), touches = is_struck, resolves = is_struck;
     for (const ContactRow<Real>& row : rows)
-        touches[islands.of_bodies[model_->is_body(row.other) ? row.other : row.object]] = 1;
+        if (!row.is_tie())
+            touches[islands.of_bodies[model_->is_body(row.other) ? row.other : row.object]] = 1;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands.of_bodies[o];
         paces[island] = std::min(paces[island], paces_[o]);

@@ -26,6 +26,8 @@ public:
     void begin(std::span<const Vec4<Real>> positions, std::span<const Real> inertia);
     bool is_free(std::size_t object) const { return numbers_[object] != kNoNode; }
     std::uint32_t number(std::size_t object) const { return numbers_[object]; }
+    /// Of the body that a node belongs to.
+    std::uint32_t number_at(std::size_t node) const { return body_of_[node]; }
     std::size_t count() const { return bodies_.size(); }
     /// From its free body's centre to a node [m].
     const Vec3<Real>& arm(std::size_t node) const { return arms_[node]; }

@@ -73,10 +73,11 @@ RigidSolve<Real>::RigidSolve(const Model& model, const RigidLevel<Real>& level,
         const ContactRow<Real>& row = rows.rows[r];
         arms_[r] = {glm::dvec3(0.0), glm::dvec3(0.0)};
         for (std::uint32_t k = 0; k < row.count; ++k) {
-            const std::size_t side = row.weights[k] < Real(0) ? 0 : 1;
+            const std::uint32_t n = row.nodes[k];
+            const std::size_t side = level_.number_at(n) == level_.number(row.other) ? 1 : 0;
             if (pairs_[pair_of_row_[r]].bodies[side] != kNoNode)
-                arms_[r][side] +=
-                    std::abs(static_cast<double>(row.weights[k])) * glm::dvec3(level_.arm(row.nodes[k]));
+                arms_[r][side] += (side == 0 ? -1.0 : 1.0) * static_cast<double>(row.weights[k]) *
+                                  glm::dvec3(level_.arm(n));
         }
     });
 }

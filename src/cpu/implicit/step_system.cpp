@@ -90,7 +90,7 @@ void StepSystem<Real>::index_rows() {
     row_entries_.resize(row_starts_.back());
     std::vector<std::uint32_t> next(row_starts_.begin(), row_starts_.end() - 1);
     for (std::uint32_t r = 0; r < rows.size(); ++r)
-        for (std::uint32_t k = 0; k < rows[r].count; ++k) row_entries_[next[rows[r].nodes[k]]++] = 4 * r + k;
+        for (std::uint32_t k = 0; k < rows[r].count; ++k) row_entries_[next[rows[r].nodes[k]]++] = {r, k};
     tangents_.resize(rows.size());
     for (Field* values : {&row_forces_, &slips_}) values->resize(rows.size());
 }

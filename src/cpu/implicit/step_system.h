@@ -68,8 +68,12 @@ private:
     void index_rows();
 
     std::shared_ptr<const Model> model_;
-    std::vector<std::uint8_t> asleep_;                     // bodies
-    std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place
+    std::vector<std::uint8_t> asleep_;  // bodies
+    struct RowEntry {
+        std::uint32_t row, place;
+    };
+    std::vector<std::uint32_t> row_starts_;
+    std::vector<RowEntry> row_entries_;  // by node
     std::vector<RowTangent<Real>> tangents_;
     Field row_forces_, slips_;                           // slips: s of rows, by displacements
     std::vector<SymmetricMatrix<Real>> inverse_blocks_;  // of nodes

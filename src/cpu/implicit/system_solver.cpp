@@ -110,6 +110,12 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
 }
 
 template <class Real>
+void SystemSolver<Real>::set_attachments(std::vector<Attachment> attachments) {
+    step_.set_attachments(std::move(attachments));
+    if (rest_watch_) rest_watch_->restart();
+}
+
+template <class Real>
 HoldingForces SystemSolver<Real>::holding_forces() {
     const bool holds_bodies = !model_->handles.empty() && model_->is_body(model_->handles[0].object);
     if (!holds_bodies) return {};

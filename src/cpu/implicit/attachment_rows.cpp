@@ -1,0 +1,133 @@
+#include "cpu/implicit/attachment_rows.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "cpu/contact/tuning.h"
+
+namespace gelatin::cpu {
+
+template <class Real>
+AttachmentRows<Real>::AttachmentRows(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+
+template <class Real>
+void AttachmentRows<Real>::set(std::vector<Attachment> attachments) {
+    attachments_ = std::move(attachments);
+    forces_.resize(attachments_.size());
+    for (std::size_t a = 0; a < attachments_.size(); ++a)
+        forces_[a].is_broken = attachments_[a].is_broken ? 1 : 0;
+    has_ties_.assign(attachments_.empty() ? 0 : model_->node_count(), 0);
+    tied_.clear();
+    for (std::uint32_t a = 0; a < attachments_.size(); ++a) {
+        const Attachment& attachment = attachments_[a];
+        const Range& own = model_->objects[attachment.object].nodes;
+        const std::uint32_t to_other =
+            attachment.plane == kNoNode
+                ? attachment.other
+                : static_cast<std::uint32_t>(model_->objects.size()) + attachment.plane;
+        if (to_other == kNoNode) continue;
+        for (const Tie& tie : attachment.ties)
+            for (std::uint32_t k = 0; k < tie.count; ++k) {
+                const std::uint32_t node = tie.nodes[k];
+                const bool is_own = node >= own.first && node < own.end();
+                tied_.push_back({node, is_own ? to_other : attachment.object, a});
+                has_ties_[node] = 1;
+            }
+    }
+    std::sort(tied_.begin(), tied_.end(), [](const Tied& a, const Tied& b) { return a.node < b.node; });
+}
+
+template <class Real>
+std::vector<AttachmentForce> AttachmentRows<Real>::forces() const {
+    std::vector<AttachmentForce> forces;
+    for (const State& state : forces_) forces.push_back({state.force, state.is_broken != 0});
+    return forces;
+}
+
+template <class Real>
+bool AttachmentRows<Real>::is_tied(std::uint32_t node, std::uint32_t to) const {
+    if (has_ties_[node] == 0) return false;
+    auto at = std::lower_bound(tied_.begin(), tied_.end(), node,
+                               [](const Tied& tied, std::uint32_t n) { return tied.node < n; });
+    for (; at != tied_.end() && at->node == node; ++at)
+        if (at->to == to && !is_broken(at->attachment)) return true;
+    return false;
+}
+
+template <class Real>
+bool AttachmentRows<Real>::are_tied(const ContactPair& pair) const {
+    if (attachments_.empty()) return false;
+    for (std::size_t k = 0; k < 4; ++k)
+        if (is_tied(pair.nodes[k], pair.side_of(k) == 0 ? pair.other : pair.object)) return true;
+    return false;
+}
+
+template <class Real>
+bool AttachmentRows<Real>::is_tied_to_plane(std::uint32_t node, std::uint32_t plane) const {
+    return !attachments_.empty() && is_tied(node, static_cast<std::uint32_t>(model_->objects.size()) + plane);
+}
+
+// A tie is like friction that never slides: it holds in all directions, from where its points should be.
+template <class Real>
+void AttachmentRows<Real>::add(std::span<const Vec4<Real>> positions, std::span<const Real> compliances,
+                               std::span<const std::uint8_t> asleep,
+                               std::vector<ContactRow<Real>>& rows) const {
+    for (std::uint32_t a = 0; a < attachments_.size(); ++a) {
+        const Attachment& attachment = attachments_[a];
+        if (is_broken(a) || asleep[attachment.object] != 0) continue;
+        const Real shared =
+            static_cast<Real>(attachment.compliance) * static_cast<Real>(attachment.ties.size());
+        for (const Tie& tie : attachment.ties) {
+            ContactRow<Real> row;
+            row.attachment = a;
+            row.count = tie.count;
+            row.object = attachment.other;
+            row.other = attachment.object;
+            row.gap = row.limit = std::numeric_limits<Real>::max();
+            const Vec3<Real> origin =
+                attachment.other == kNoNode ? Vec3<Real>(tie.at) : Vec3<Real>(positions[tie.nodes[0]]);
+            Vec3<Real> apart(0);
+            Real yield = 0;
+            for (std::uint32_t k = 0; k < tie.count; ++k) {
+                const auto w = static_cast<Real>(tie.weights[k]);
+                row.nodes[k] = tie.nodes[k];
+                row.weights[k] = w;
+                apart += w * (Vec3<Real>(positions[tie.nodes[k]]) - origin);
+                yield += w * w * compliances[tie.nodes[k]];
+            }
+            if (!(yield > Real(0))) continue;
+            row.stiffness = Real(1) / (yield / static_cast<Real>(tuning::kTied) + shared);
+            row.hold = row.stiffness * apart;
+            rows.push_back(row);
+        }
+    }
+}
+
+template <class Real>
+void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows,
+                                std::span<const Vec3<Real>> displacements,
+                                std::span<const std::uint8_t> asleep) {
+    for (std::size_t a = 0; a < attachments_.size(); ++a)
+        if (!is_broken(a) && asleep[attachments_[a].object] == 0) forces_[a].force = glm::dvec3(0.0);
+    for (const ContactRow<Real>& row : rows)
+        if (row.is_tie())
+            forces_[row.attachment].force += glm::dvec3(row.force(relative<Real>(row, displacements)));
+}
+
+template <class Real>
+bool AttachmentRows<Real>::break_overloaded() {
+    bool any = false;
+    for (std::size_t a = 0; a < attachments_.size(); ++a) {
+        if (is_broken(a) || glm::length(forces_[a].force) <= static_cast<double>(attachments_[a].break_force))
+            continue;
+        forces_[a].is_broken = 1;
+        any = true;
+    }
+    return any;
+}
+
+template class AttachmentRows<float>;
+template class AttachmentRows<double>;
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,324 @@
+#include "model/assembly/attachments.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <variant>
+
+#include "gelatin/error.h"
+#include "mesh/carry_surface.h"
+#include "mesh/lattice/face_tree.h"
+#include "model/assembly/collider_surface.h"
+#include "model/region.h"
+
+namespace gelatin {
+namespace {
+
+constexpr double kNear = 0.25;           // glued without a region, in median edges of the object
+constexpr double kFar = 4.0;             // from what carries a point, in median edges of that
+constexpr std::size_t kMostOnLine = 64;  // points
+
+// A point's place as a sum of an object's nodes.
+struct Carried {
+    glm::uvec4 nodes{0};
+    glm::dvec4 weights{0.0};
+};
+
+std::vector<glm::dvec3> positions_of(const ModelObject& object, std::span<const glm::vec4> positions) {
+    const auto own = positions.subspan(object.nodes.first, object.nodes.count);
+    return {own.begin(), own.end()};
+}
+
+double median_edge(const Model& model, const ModelObject& object, std::span<const glm::vec4> positions) {
+    const std::vector<glm::uvec2>& starts = model.surface_parts.face_starts;
+    std::vector<double> lengths;
+    for (std::uint32_t e = starts[object.faces.first].y; e < starts[object.faces.end()].y; ++e) {
+        const FaceEdge& edge = model.surface_parts.edges[e];
+        lengths.push_back(glm::distance(glm::dvec3(positions[edge.a]), glm::dvec3(positions[edge.b])));
+    }
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+}
+
+// What carries points of an object: a body, or a collider's surface.
+class Carrier {
+public:
+    Carrier(const Model& model, std::uint32_t object, std::span<const glm::vec4> positions)
+        : object_(model.objects[object]), is_body_(model.is_body(object)) {
+        mesh_.positions = positions_of(object_, positions);
+        for (std::uint32_t t = object_.tets.first; t < object_.tets.end(); ++t)
+            mesh_.tets.push_back(model.tets[t] - object_.nodes.first);
+        for (std::uint32_t f = object_.faces.first; f < object_.faces.end(); ++f) {
+            const Face& face = model.faces[f];
+            mesh_.faces.push_back(glm::uvec3(face.a, face.b, face.c) - object_.nodes.first);
+        }
+        edge_ = median_edge(model, object_, positions);
+    }
+
+    const std::string& name() const { return object_.name; }
+    double edge() const { return edge_; }
+    SurfaceMesh hull() const { return {mesh_.positions, mesh_.faces}; }
+
+    std::vector<Carried> carry(const std::vector<glm::dvec3>& points) const {
+        std::vector<Carried> carried;
+        if (!is_body_) {
+            for (const glm::dvec3& point : points) carried.push_back(carry_by_frame(point));
+        } else {
+            for (const CarriedVertex& vertex : carry_surface({points, {}}, mesh_).vertices)
+                carried.push_back({vertex.nodes, vertex.weights});
+        }
+        for (Carried& point : carried) point.nodes += object_.nodes.first;
+        return carried;
+    }
+
+    // Whether it can: a sheet, which is flat, says nothing of what is beside it.
+    bool has_frame() const { return is_body_ || frame_volume(frame()) > 0.0; }
+
+private:
+    // Four nodes as far apart as possible.
+    glm::uvec4 frame() const {
+        glm::uvec4 nodes(0);
+        const auto farthest = [&](const auto& measure) {
+            std::uint32_t best = 0;
+            double most = -1.0;
+            for (std::uint32_t n = 0; n < mesh_.positions.size(); ++n)
+                if (const double value = measure(mesh_.positions[n]); value > most) {
+                    most = value;
+                    best = n;
+                }
+            return best;
+        };
+        const auto at = [&](int k) { return mesh_.positions[nodes[k]]; };
+        nodes.x = farthest([&](const glm::dvec3& p) { return glm::distance(p, mesh_.positions[0]); });
+        nodes.y = farthest([&](const glm::dvec3& p) { return glm::distance(p, at(0)); });
+        nodes.z =
+            farthest([&](const glm::dvec3& p) { return glm::length(glm::cross(at(1) - at(0), p - at(0))); });
+        const glm::dvec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
+        nodes.w = farthest([&](const glm::dvec3& p) { return std::abs(glm::dot(normal, p - at(0))); });
+        return nodes;
+    }
+
+    // 0 where they are in a plane but for rounding.
+    double frame_volume(const glm::uvec4& nodes) const {
+        const auto at = [&](int k) { return mesh_.positions[nodes[k]]; };
+        const double volume = std::abs(glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0)));
+        const double size = glm::distance(at(0), at(1));
+        return volume > 1e-3 * size * size * size ? volume : 0.0;
+    }
+
+    Carried carry_by_frame(const glm::dvec3& point) const {
+        const glm::uvec4 nodes = frame();
+        const auto at = [&](int k) { return mesh_.positions[nodes[k]]; };
+        const glm::dmat3 edges(at(1) - at(0), at(2) - at(0), at(3) - at(0));
+        const glm::dvec3 along = glm::inverse(edges) * (point - at(0));
+        return {nodes, {1.0 - along.x - along.y - along.z, along.x, along.y, along.z}};
+    }
+
+    const ModelObject& object_;
+    bool is_body_;
+    TetMesh mesh_;
+    double edge_;
+};
+
+class AttachmentMaker {
+public:
+    AttachmentMaker(const AttachmentDescription& description, std::size_t index, const Scene& scene,
+                    const Model& model, std::span<const glm::vec4> positions)
+        : description_(description), scene_(scene), model_(model), positions_(positions) {
+        made_.name = name_of_attachment(description, index);
+        made_.compliance = static_cast<float>(description.compliance);
+        if (description.break_force) made_.break_force = static_cast<float>(*description.break_force);
+        made_.object = *find(description.object);
+        if (!description.to.empty()) find_other();
+        own_.emplace(model, made_.object, positions);
+        if (made_.other != kNoNode) other_.emplace(model, made_.other, positions);
+        // What never moves is in space.
+        const bool moves = made_.other != kNoNode && (model.is_body(made_.other) ||
+                                                      model.surfaces[made_.other - model.body_count()].moves);
+        if (moves && !other_->has_frame())
+            fail("to", fmt::format("must not be flat, as '{}' is, and move", other_->name()));
+        is_carried_ = moves;
+    }
+
+    Attachment make() {
+        if (const auto* point = std::get_if<AttachedPoint>(&description_.where)) {
+            tie({point->at}, "point");
+        } else if (const auto* line = std::get_if<AttachedLine>(&description_.where)) {
+            tie(points_on(*line), "line");
+        } else {
+            glue();
+        }
+        return std::move(made_);
+    }
+
+private:
+    [[noreturn]] void fail(const char* key, const std::string& problem) const {
+        throw InvalidInput(
+            {scene_.file.string(), description_.line, fmt::format("{}.{}", made_.name, key), {}, problem});
+    }
+
+    // Bodies come before colliders' surfaces.
+    std::optional<std::uint32_t> find(const std::string& name) const {
+        const auto found = std::find_if(model_.objects.begin(), model_.objects.end(),
+                                        [&](const ModelObject& object) { return object.name == name; });
+        if (found == model_.objects.end()) return {};
+        return static_cast<std::uint32_t>(found - model_.objects.begin());
+    }
+
+    void find_other() {
+        if (const auto object = find(description_.to)) {
+            made_.other = *object;
+            return;
+        }
+        std::uint32_t plane = 0;  // planes come first in Model::colliders
+        for (std::size_t c = 0; c < scene_.colliders.size(); ++c) {
+            const bool is_plane = std::holds_alternative<PlaneCollider>(scene_.colliders[c].shape);
+            if (name_of_collider(scene_.colliders[c], c) == description_.to) {
+                if (is_plane) made_.plane = plane;
+                return;
+            }
+            if (is_plane) ++plane;
+        }
+    }
+
+    // Points of a joint, which both sides carry.
+    void tie(const std::vector<glm::dvec3>& points, const char* key) {
+        check_near(*own_, points, key);
+        const std::vector<Carried> own = own_->carry(points);
+        std::vector<Tie> ties(points.size());
+        for (std::size_t p = 0; p < points.size(); ++p)
+            for (int k = 0; k < 4; ++k) add(ties[p], own[p].nodes[k], own[p].weights[k]);
+        finish(points, std::move(ties), key);
+    }
+
+    // Nodes of the object.
+    void glue() {
+        const ModelObject& object = model_.objects[made_.object];
+        const auto* region = std::get_if<Region>(&description_.where);
+        std::vector<std::uint32_t> nodes;
+        if (region != nullptr) {
+            nodes = find_inside(*region, positions_of(object, positions_));
+            for (std::uint32_t& n : nodes) n += object.nodes.first;
+            if (nodes.empty())
+                fail("region", fmt::format("holds no node of '{}' (regions are in world coordinates at the "
+                                           "start)",
+                                           object.name));
+        } else {
+            nodes = near_nodes();
+            if (nodes.empty())
+                fail("to", fmt::format("'{}' has no node within {:.3g} m of '{}', a quarter of its edges: a "
+                                       "region can name some that are farther",
+                                       object.name, kNear * own_->edge(), description_.to));
+        }
+        std::vector<glm::dvec3> points;
+        std::vector<Tie> ties(nodes.size());
+        for (std::size_t p = 0; p < nodes.size(); ++p) {
+            points.emplace_back(positions_[nodes[p]]);
+            add(ties[p], nodes[p], 1.0);
+        }
+        finish(points, std::move(ties), region != nullptr ? "region" : "to");
+    }
+
+    // Of the object's surface, near what it is attached to.
+    std::vector<std::uint32_t> near_nodes() const {
+        const double most = kNear * own_->edge();
+        std::optional<lattice::FaceTree> hull;
+        if (other_) hull.emplace(other_->hull());
+        const auto is_near = [&](const glm::dvec3& p) {
+            if (hull) return hull->find_nearest(p, most).has_value();
+            if (made_.plane == kNoNode) return false;
+            const glm::dvec4 plane(model_.colliders[made_.plane].center);
+            return glm::dot(glm::dvec3(plane), p) - plane.w <= most;
+        };
+        const std::vector<glm::uvec2>& starts = model_.surface_parts.face_starts;
+        const Range& faces = model_.objects[made_.object].faces;
+        std::vector<std::uint32_t> nodes;
+        for (std::uint32_t s = starts[faces.first].x; s < starts[faces.end()].x; ++s)
+            if (const std::uint32_t n = model_.surface_parts.nodes[s]; is_near(glm::dvec3(positions_[n])))
+                nodes.push_back(n);
+        std::sort(nodes.begin(), nodes.end());
+        return nodes;
+    }
+
+    std::vector<glm::dvec3> points_on(const AttachedLine& line) const {
+        const double length = glm::distance(line.from, line.to);
+        const auto count =
+            std::min(static_cast<std::size_t>(std::ceil(length / own_->edge())) + 1, kMostOnLine);
+        std::vector<glm::dvec3> points;
+        for (std::size_t p = 0; p < count; ++p)
+            points.push_back(
+                glm::mix(line.from, line.to, static_cast<double>(p) / static_cast<double>(count - 1)));
+        return points;
+    }
+
+    // A tet that is small beside its distance would throw the point about.
+    void check_near(const Carrier& carrier, const std::vector<glm::dvec3>& points, const char* key) const {
+        const double most = kFar * carrier.edge();
+        const lattice::FaceTree hull(carrier.hull());
+        for (const glm::dvec3& point : points) {
+            if (hull.find_nearest(point, most) || is_inside(hull, point)) continue;
+            fail(key,
+                 fmt::format("[{:.4g}, {:.4g}, {:.4g}] is farther than {:.3g} m from '{}', four of its edges",
+                             point.x, point.y, point.z, most, carrier.name()));
+        }
+    }
+
+    static bool is_inside(const lattice::FaceTree& hull, const glm::dvec3& point) {
+        std::vector<lattice::Crossing> crossings;
+        hull.find_crossings(point, point + glm::dvec3(1e4, 1.7, 2.3), crossings);
+        return crossings.size() % 2 == 1;
+    }
+
+    // Adds what the points are attached to.
+    void finish(const std::vector<glm::dvec3>& points, std::vector<Tie> ties, const char* key) {
+        if (is_carried_) {
+            if (model_.is_body(made_.other)) check_near(*other_, points, key);
+            const std::vector<Carried> carried = other_->carry(points);
+            for (std::size_t p = 0; p < ties.size(); ++p)
+                for (int k = 0; k < 4; ++k) add(ties[p], carried[p].nodes[k], -carried[p].weights[k]);
+        } else {
+            for (std::size_t p = 0; p < ties.size(); ++p) ties[p].at = glm::vec3(points[p]);
+        }
+        made_.ties = std::move(ties);
+    }
+
+    static void add(Tie& tie, std::uint32_t node, double weight) {
+        if (weight == 0.0) return;
+        tie.nodes[tie.count] = node;
+        tie.weights[tie.count++] = static_cast<float>(weight);
+    }
+
+    const AttachmentDescription& description_;
+    const Scene& scene_;
+    const Model& model_;
+    std::span<const glm::vec4> positions_;
+    std::optional<Carrier> own_, other_;
+    bool is_carried_ = false;  // by what it is attached to
+    Attachment made_;
+};
+
+}  // namespace
+
+std::string name_of_attachment(const AttachmentDescription& description, std::size_t index) {
+    return description.name.empty() ? fmt::format("attachment {}", index + 1) : description.name;
+}
+
+Attachment make_attachment(const AttachmentDescription& description, std::size_t index, const Scene& scene,
+                           const Model& model, std::span<const glm::vec4> positions) {
+    return AttachmentMaker(description, index, scene, model, positions).make();
+}
+
+std::vector<Attachment> make_attachments(const Scene& scene, const Model& model,
+                                         std::span<const glm::vec4> positions) {
+    std::vector<Attachment> attachments;
+    for (std::size_t a = 0; a < scene.attachments.size(); ++a)
+        attachments.push_back(make_attachment(scene.attachments[a], a, scene, model, positions));
+    return attachments;
+}
+
+}  // namespace gelatin

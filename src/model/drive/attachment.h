@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "model/spring_packing.h"
+
+namespace gelatin {
+
+/// Two points that are kept together, each a sum of nodes:
+///   sum_k w_k x_k = at,
+/// where the weights of the object's nodes sum to 1, and those of the other side's to -1, if it has nodes.
+struct Tie {
+    static constexpr std::size_t kMostNodes = 8;
+
+    std::array<std::uint32_t, kMostNodes> nodes{};
+    std::array<float, kMostNodes> weights{};
+    std::uint32_t count = 0;  ///< of nodes
+    glm::vec3 at{0.0f};       ///< [m]; 0 where the other side has nodes
+};
+
+/// An attachment of a model's objects (AttachmentDescription).
+struct Attachment {
+    std::string name;
+    std::uint32_t object = 0;       ///< a body
+    std::uint32_t other = kNoNode;  ///< another object; kNoNode: space, or a plane
+    std::uint32_t plane = kNoNode;  ///< in Model::colliders
+    float compliance = 0.0f;        ///< [m/N]
+    float break_force = std::numeric_limits<float>::infinity();  ///< [N]
+    bool is_broken = false;                                      ///< from now on
+    std::vector<Tie> ties;                                       ///< at least one
+};
+
+/// What an attachment exerts when a step has ended.
+struct AttachmentForce {
+    glm::dvec3 force{0.0};  ///< on its object [N]; of a broken one, what broke it
+    bool is_broken = false;
+};
+
+}  // namespace gelatin
