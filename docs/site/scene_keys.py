@@ -279,7 +279,7 @@ def _default(key):
 
 
 def _title(path):
-    lists = ("material", "object", "collider", "object.part", "object.handle", "object.load", "collision.pair")
+    lists = ("material", "object", "collider", "object.part", "object.handle", "object.load", "collision.pair", "attachment")
     return f"[[{path}]]" if path in lists else f"[{path}]"
 
 
