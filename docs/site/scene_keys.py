@@ -14,7 +14,7 @@ FUNCTION = re.compile(r"^(?:inline )?(?:[\w:<>, ]+?)[ &*](\w+)\(([^;{}]*)\)\s*(?
 METHOD = re.compile(r"^    (?:[\w:<>, ]+?)[ &*](operator\(\)|\w+)\(([^;{}]*)\)\s*const \{\n(.*?)^    \}", re.MULTILINE | re.DOTALL)
 LIMIT = re.compile(r'constexpr Limit (k\w+)\{"((?:[^"\\]|\\.)*)"')
 CALL = re.compile(
-    r"\b(?P<reader>\w+)\.(?P<method>read|read_direction|read_names|read_two_texts|require|require_one_of|table|tables|find|check)"
+    r"\b(?P<reader>\w+)\.(?P<method>read|read_direction|read_names|read_two_texts|read_two_points|require|require_one_of|table|tables|find|check)"
     r"\((?P<arguments>(?:[^()]|\((?:[^()]|\([^()]*\))*\))*)\)"
 )
 NESTED = re.compile(r"(?<![.\w])(?P<function>(?:read|require)_\w+)\((?:std::move\()?\*?(?:std::move\()?\*?(?P<reader>\w+)\b(?!\.)")
@@ -217,6 +217,8 @@ class Code:
             key.type, key.choices = "list of names", self.spring_kinds
         elif method == "read_two_texts":
             key.type = "two texts"
+        elif method == "read_two_points":
+            key.type, key.allowed = "[[x, y, z], [x, y, z]]", f"two {STRINGS.findall(arguments[1])[0]}"
         elif method in ("table", "tables"):
             key.is_table, key.type = True, "table" if method == "table" else "list of tables"
         if method == "find" or method not in ("read", "read_direction", "read_names", "table", "tables"):
@@ -277,7 +279,7 @@ def _default(key):
 
 
 def _title(path):
-    lists = ("material", "object", "collider", "object.part", "object.handle", "object.load", "collision.pair")
+    lists = ("material", "object", "collider", "object.part", "object.handle", "object.load", "collision.pair", "attachment")
     return f"[[{path}]]" if path in lists else f"[{path}]"
 
 

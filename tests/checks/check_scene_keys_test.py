@@ -62,12 +62,14 @@ class CheckSceneKeys(unittest.TestCase):
         self.assert_missing_if_renamed("scene_file_drives.cpp", "interpolation", "object.handle", "collider")
         self.assert_missing_if_renamed("scene_file_drives.cpp", "release", "object.handle")
         self.assert_missing_if_renamed("scene_file_drives.cpp", "until", "object.load")
+        self.assert_missing_if_renamed("scene_file_drives.cpp", "break_force", "attachment")
+        self.assert_missing_if_renamed("scene_file_drives.cpp", "line", "attachment")
         self.assert_missing_if_renamed("scene_file_copies.cpp", "jitter", "object.copies")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "scatter", "object.start")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "cell_size", "object.mesher")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "segments", "object.shape", "collider.shape")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "surface_velocity", "collider")
-        for table in ("object.pins", "object.part.region", "object.handle.region", "object.load.region"):
+        for table in ("object.pins", "object.part.region", "object.handle.region", "object.load.region", "attachment.region"):
             self.assert_refused(f"{CODE}/scene_file_region.cpp", 'read("offset"', 'read("novel"', f"[{table}]: 'novel'")
 
     def test_a_new_table_of_the_code_is_missed_on_the_page(self):
@@ -96,6 +98,10 @@ class SceneKeys(unittest.TestCase):
         self.assertEqual(tables["object.shape"]["segments"].allowed, "from 1 to 1000")
         self.assertEqual(tables["object.part"]["region"].alternatives, ["region", "attribute"])
         self.assertEqual(tables["object.load"]["until"].type, "number")
+        attachment = tables["attachment"]
+        self.assertEqual((attachment["compliance"].default, attachment["compliance"].allowed), ("0.0", "0 or more"))
+        self.assertEqual((attachment["point"].type, attachment["line"].type), ("[x, y, z]", "[[x, y, z], [x, y, z]]"))
+        self.assertTrue(attachment["object"].required)
 
     def test_every_key_has_a_row(self):
         text = page(ROOT)

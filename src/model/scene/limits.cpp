@@ -16,4 +16,8 @@ std::optional<std::string> problem_of(double value, const Limit& limit) {
     return {};
 }
 
+std::string three_numbers_each(const char* points) {
+    return fmt::format("{} must be three finite numbers each", points);
+}
+
 }  // namespace gelatin

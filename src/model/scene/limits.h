@@ -17,10 +17,11 @@ inline constexpr Limit kFraction{"from 0 to 1", [](double v) { return v >= 0.0 &
 inline constexpr Limit kSubsteps{"\"auto\" or from 1 to 1000000",
                                  [](double v) { return v >= 1.0 && v <= 1e6; }};
 
-inline constexpr const char* kCornersAllowed = "corners must be three finite numbers each";
-
 /// What is wrong with `value`; empty: nothing. It must be finite, within `limit`, and 0 or of a magnitude
 /// whose square the solvers' floats hold.
 std::optional<std::string> problem_of(double value, const Limit& limit);
+
+/// "corners must be three finite numbers each": what a list of such points must be.
+std::string three_numbers_each(const char* points);
 
 }  // namespace gelatin

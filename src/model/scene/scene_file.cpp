@@ -11,6 +11,7 @@
 #include "model/scene/override_scene.h"
 #include "model/scene/parse_scene.h"
 #include "model/scene/scene_file_bodies.h"
+#include "model/scene/scene_file_drives.h"
 #include "model/scene/scene_file_override.h"
 #include "model/scene/scene_file_places.h"
 #include "model/scene/scene_file_reader.h"
@@ -152,7 +153,7 @@ Scene read_scene(const std::string& text, const std::filesystem::path& file,
     const auto simulation = reader.table("simulation"), collision = reader.table("collision"),
                camera = reader.table("camera");
     auto materials = reader.tables("material"), objects = reader.tables("object"),
-         colliders = reader.tables("collider");
+         colliders = reader.tables("collider"), attachments = reader.tables("attachment");
     reader.finish();  // a misspelt section first: what it should have held is missing elsewhere
 
     if (simulation) scene.simulation = read_simulation(*simulation);
@@ -162,6 +163,7 @@ Scene read_scene(const std::string& text, const std::filesystem::path& file,
     ReadObjects read = read_objects(std::move(objects), scene.materials, file.parent_path());
     scene.objects = std::move(read.objects);
     scene.colliders = read_colliders(std::move(colliders), scene.collision, file.parent_path());
+    scene.attachments = read_attachments(std::move(attachments));
     const ScenePlaces places(document, scene, std::move(read.tables));
     validate(scene, [&](const FieldPath& field, const std::string& value, const std::string& problem) {
         places.report(field, value, problem);

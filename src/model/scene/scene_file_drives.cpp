@@ -1,5 +1,6 @@
 #include "model/scene/scene_file_drives.h"
 
+#include "model/scene/field_path.h"
 #include "model/scene/scene_file_region.h"
 
 namespace gelatin {
@@ -27,6 +28,29 @@ DragDescription read_drag(TableReader reader) {
 Region require_region(TableReader& reader) {
     reader.require({"region"});
     return read_region(*reader.table("region"));
+}
+
+AttachmentDescription read_attachment(TableReader& reader) {
+    AttachmentDescription attachment;
+    attachment.line = reader.line();
+    reader.read("name", attachment.name);
+    if (is_plain_name(attachment.name)) reader.set_path("attachment." + attachment.name);
+    reader.require({"object"});
+    reader.read("object", attachment.object);
+    reader.read("to", attachment.to);
+    const std::string where = reader.at_most_one_of({"region", "point", "line"});
+    if (where == "region") {
+        attachment.where = read_region(*reader.table("region"));
+    } else if (where == "point") {
+        reader.read("point", attachment.where.emplace<AttachedPoint>().at);
+    } else if (where == "line") {
+        const auto [from, to] = reader.read_two_points("line", "points");
+        attachment.where = AttachedLine{from, to};
+    }
+    reader.read("compliance", attachment.compliance);
+    reader.read("break_force", attachment.break_force);
+    reader.finish();
+    return attachment;
 }
 
 }  // namespace
@@ -82,6 +106,12 @@ LoadDescription read_load(TableReader reader) {
     reader.read("until", load.until);
     reader.finish();
     return load;
+}
+
+std::vector<AttachmentDescription> read_attachments(std::vector<TableReader> tables) {
+    std::vector<AttachmentDescription> attachments;
+    for (TableReader& reader : tables) attachments.push_back(read_attachment(reader));
+    return attachments;
 }
 
 }  // namespace gelatin

@@ -16,4 +16,7 @@ HandleDescription read_handle(TableReader reader);
 /// An [[object.load]] table, which it finishes.
 LoadDescription read_load(TableReader reader);
 
+/// The [[attachment]] tables.
+std::vector<AttachmentDescription> read_attachments(std::vector<TableReader> tables);
+
 }  // namespace gelatin

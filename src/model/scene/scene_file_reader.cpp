@@ -97,11 +97,16 @@ void TableReader::require(std::initializer_list<const char*> keys) {
     }
 }
 
-std::string TableReader::require_one_of(const std::vector<std::string>& keys) {
+std::vector<std::string> TableReader::present_of(const std::vector<std::string>& keys) const {
     std::vector<std::string> present;
     for (const std::string& key : keys) {
         if (table_->contains(key)) present.push_back(key);
     }
+    return present;
+}
+
+std::string TableReader::require_one_of(const std::vector<std::string>& keys) {
+    const std::vector<std::string> present = present_of(keys);
     if (present.size() == 1) {
         find(present.front().c_str());
         return present.front();
@@ -113,6 +118,16 @@ std::string TableReader::require_one_of(const std::vector<std::string>& keys) {
         if (!hint.empty()) fail(name.str(), "unknown key" + hint);
     }
     fail("", wanted);
+}
+
+std::string TableReader::at_most_one_of(const std::vector<std::string>& keys) {
+    for (const std::string& key : keys) find(key.c_str());
+    const std::vector<std::string> present = present_of(keys);
+    if (present.size() > 1) {
+        fail("",
+             fmt::format("must have at most one of {}, has {}", join_names(keys, "or"), join_names(present)));
+    }
+    return present.empty() ? std::string() : present.front();
 }
 
 double TableReader::number(const toml::node& node, std::string_view key) const {
@@ -237,6 +252,25 @@ std::pair<std::string, std::string> TableReader::read_two_texts(const char* key)
     if (array == nullptr || array->size() != 2 || !array->is_homogeneous(toml::node_type::string))
         fail(key, "must be a list of two names");
     return {(*array)[0].value_or(std::string()), (*array)[1].value_or(std::string())};
+}
+
+std::pair<glm::dvec3, glm::dvec3> TableReader::read_two_points(const char* key, const char* points) {
+    const toml::node* node = find(key);
+    const toml::array* array = node != nullptr ? node->as_array() : nullptr;
+    if (array == nullptr || array->size() != 2 || !array->is_homogeneous<toml::array>())
+        fail(key, fmt::format("must be two {}: [[x, y, z], [x, y, z]]", points));
+    const auto read_point = [&](const toml::array& numbers) {
+        glm::dvec3 point;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::optional<double> x =
+                numbers.size() == 3 ? numbers[axis].value<double>() : std::nullopt;
+            if (!x) fail(key, three_numbers_each(points));
+            point[static_cast<int>(axis)] = *x;
+        }
+        return point;
+    };
+    const glm::dvec3 first = read_point(*(*array)[0].as_array());
+    return {first, read_point(*(*array)[1].as_array())};
 }
 
 std::optional<TableReader> TableReader::table(const char* key) {

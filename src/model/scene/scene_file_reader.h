@@ -50,6 +50,8 @@ public:
     void require(std::initializer_list<const char*> keys);
     /// The one key of `keys` that the table has.
     std::string require_one_of(const std::vector<std::string>& keys);
+    /// The same where the table may have none of them: empty then.
+    std::string at_most_one_of(const std::vector<std::string>& keys);
 
     void read(const char* key, double& value);
     void read(const char* key, std::optional<double>& value);
@@ -89,6 +91,9 @@ public:
     /// A list of two texts.
     std::pair<std::string, std::string> read_two_texts(const char* key);
 
+    /// A list of two points, which messages call `points`: "corners".
+    std::pair<glm::dvec3, glm::dvec3> read_two_points(const char* key, const char* points);
+
     std::optional<TableReader> table(const char* key);
     std::vector<TableReader> tables(const char* key);
 
@@ -100,6 +105,7 @@ public:
     void finish() const;
 
 private:
+    std::vector<std::string> present_of(const std::vector<std::string>& keys) const;
     std::string field(std::string_view key) const;
     [[noreturn]] void fail_choice(const char* key, const std::string& name,
                                   const std::vector<std::string>& names) const;

@@ -1,32 +1,13 @@
 #include "model/scene/scene_file_region.h"
 
 namespace gelatin {
-namespace {
-
-BoxRegion read_box_region(TableReader& reader) {
-    const toml::array* corners = reader.find("box")->as_array();
-    const bool is_pair = corners != nullptr && corners->size() == 2 && corners->is_homogeneous<toml::array>();
-    if (!is_pair) reader.fail("box", "must be two corners: [[x, y, z], [x, y, z]]");
-    glm::dvec3 corner[2];
-    for (std::size_t c = 0; c < 2; ++c) {
-        const toml::array& numbers = *(*corners)[c].as_array();
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::optional<double> x =
-                numbers.size() == 3 ? numbers[axis].value<double>() : std::nullopt;
-            if (!x) reader.fail("box", kCornersAllowed);
-            corner[c][static_cast<int>(axis)] = *x;
-        }
-    }
-    return {corner[0], corner[1]};
-}
-
-}  // namespace
 
 Region read_region(TableReader reader) {
     const std::string kind = reader.require_one_of({"box", "sphere", "plane"});
     Region result;
     if (kind == "box") {
-        result = read_box_region(reader);
+        const auto [lower, upper] = reader.read_two_points("box", "corners");
+        result = BoxRegion{lower, upper};
     } else if (kind == "sphere") {
         SphereRegion region{};
         reader.require({"radius"});

@@ -66,10 +66,13 @@ struct ShapeTable {
     }
 };
 
+std::string list_of_points(const glm::dvec3& first, const glm::dvec3& second) {
+    return fmt::format("[{}, {}]", text_of(first), text_of(second));
+}
+
 Table table_of(const Region& region) {
-    if (const auto* box = std::get_if<BoxRegion>(&region)) {
-        return Table().add_text("box", fmt::format("[{}, {}]", text_of(box->min), text_of(box->max)));
-    }
+    if (const auto* box = std::get_if<BoxRegion>(&region))
+        return Table().add_text("box", list_of_points(box->min, box->max));
     if (const auto* sphere = std::get_if<SphereRegion>(&region))
         return Table().add("sphere", sphere->center).add("radius", sphere->radius);
     const auto& half_space = std::get<HalfSpaceRegion>(region);
@@ -220,6 +223,20 @@ Table table_of(const ColliderDescription& collider, const std::filesystem::path&
         .add_unless(usual.surface_velocity, "surface_velocity", collider.surface_velocity);
 }
 
+Table table_of(const AttachmentDescription& attachment) {
+    Table table;
+    if (!attachment.name.empty()) table.add("name", attachment.name);
+    table.add("object", attachment.object);
+    if (!attachment.to.empty()) table.add("to", attachment.to);
+    if (const auto* region = std::get_if<Region>(&attachment.where))
+        table.add_text("region", table_of(*region).in_line());
+    if (const auto* point = std::get_if<AttachedPoint>(&attachment.where)) table.add("point", point->at);
+    if (const auto* line = std::get_if<AttachedLine>(&attachment.where))
+        table.add_text("line", list_of_points(line->from, line->to));
+    return table.add_unless(0.0, "compliance", attachment.compliance)
+        .add("break_force", attachment.break_force);
+}
+
 }  // namespace
 
 std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
@@ -246,6 +263,8 @@ std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
     }
     for (const ColliderDescription& collider : scene.colliders)
         add("[[collider]]", table_of(collider, folder));
+    for (const AttachmentDescription& attachment : scene.attachments)
+        add("[[attachment]]", table_of(attachment));
     return text;
 }
 

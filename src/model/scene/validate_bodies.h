@@ -10,7 +10,7 @@ void check_colliders(const ValueChecks& checks, const Scene& scene);
 
 inline constexpr const char* kNeedsContact = "needs collision.response = \"contact\"";
 
-/// A region of an object's pin, handle, load or part.
+/// A region of an object's pin, handle, load or part, or of an attachment.
 void check_region(const ValueChecks& checks, const FieldPath& field, const Region& region);
 void check_keyframes(const ValueChecks& checks, const FieldPath& field, const std::vector<Keyframe>& keys);
 void check_handle(const ValueChecks& checks, const FieldPath& field, const HandleDescription& handle,

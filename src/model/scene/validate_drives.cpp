@@ -11,7 +11,7 @@ void check_box(const ValueChecks& checks, const FieldPath& field, const BoxRegio
     };
     for (int axis = 0; axis < 3; ++axis) {
         if (problem_of(box.min[axis], kAnyNumber) || problem_of(box.max[axis], kAnyNumber))
-            fail(kCornersAllowed);
+            fail(three_numbers_each("corners"));
     }
     for (int axis = 0; axis < 3; ++axis) {
         if (box.min[axis] > box.max[axis]) {

@@ -10,6 +10,7 @@
 
 #include "gelatin/error.h"
 #include "model/scene/names.h"
+#include "model/scene/validate_attachments.h"
 #include "model/scene/validate_bodies.h"
 #include "model/setting_names.h"
 
@@ -154,6 +155,7 @@ void validate(const Scene& scene, const ReportProblem& report) {
     check_pairs(checks, scene);
     check_objects(checks, scene);
     check_colliders(checks, scene);
+    check_attachments(checks, scene);
 }
 
 std::string name_at(const Scene& scene, const FieldPath& path) {
@@ -161,6 +163,7 @@ std::string name_at(const Scene& scene, const FieldPath& path) {
     const std::size_t index = *path.steps().front().index;
     const std::string_view list = path.steps().front().key;
     if (list == "material") return scene.materials[index].name;
+    if (list == "attachment") return scene.attachments[index].name;
     return list == "object" ? scene.objects[index].name : std::string();
 }
 

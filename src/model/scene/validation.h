@@ -15,10 +15,10 @@ using ReportProblem =
 
 /// All that a scene must fulfil, whether it comes from a file or from a program: numbers finite and in range,
 /// names there and free, references that resolve, settings that go together. `report` gets the first problem,
-/// in the order of sections, materials, objects and colliders.
+/// in the order of sections, materials, objects, colliders and attachments.
 void validate(const Scene& scene, const ReportProblem& report);
 
-/// The name of the material or object that the path starts with; else empty.
+/// The name of the material, object or attachment that the path starts with; else empty.
 std::string name_at(const Scene& scene, const FieldPath& path);
 
 }  // namespace gelatin

@@ -155,5 +155,154 @@ TEST_F(SceneFileDrives, RefusesWrongLoads) {
               "scene.toml:8: object.bar.load[0].from = -1: must be 0 or more");
 }
 
+// Two objects, and two colliders that have names; an attachment's own lines start on line 6.
+class SceneFileAttachments : public SceneFile {
+protected:
+    static std::string with(const std::string& lines) {
+        return "material = [{name = 'jelly'}]\n"
+               "object = [{name = 'ball', shape = {sphere = 1}}, {name = 'beam', shape = {sphere = 1}}]\n"
+               "collider = [{name = 'floor', shape = {plane = [0, 1, 0]}},\n"
+               "            {name = 'post', shape = {sphere = 1}}]\n"
+               "[[attachment]]\n" +
+               lines + "\n";
+    }
+    std::string attachment_error(const std::string& lines, const Overrides& overrides = {}) {
+        return error(with(lines), overrides);
+    }
+};
+
+TEST_F(SceneFileAttachments, ReadsThem) {
+    const Scene scene = load(with(R"(name = "hook"
+object = "ball"
+to = "beam"
+region = { box = [[0, 1, 2], [3, 4, 5]] }
+compliance = 1e-5
+break_force = 100
+
+[[attachment]]
+object = "beam"
+to = "post"
+point = [1, 2, 3]
+
+[[attachment]]
+object = "beam"
+line = [[0, 1, -1], [0, 1, 1.5]]
+
+[[attachment]]
+object = "ball"
+to = "floor")"));
+    ASSERT_EQ(scene.attachments.size(), 4u);
+    const AttachmentDescription &hook = scene.attachments[0], &joint = scene.attachments[1],
+                                &hinge = scene.attachments[2], &glue = scene.attachments[3];
+    EXPECT_EQ(hook.name, "hook");
+    EXPECT_EQ(hook.object, "ball");
+    EXPECT_EQ(hook.to, "beam");
+    const BoxRegion& box = std::get<BoxRegion>(std::get<Region>(hook.where));
+    EXPECT_EQ(box.min, glm::dvec3(0.0, 1.0, 2.0));
+    EXPECT_EQ(box.max, glm::dvec3(3.0, 4.0, 5.0));
+    EXPECT_EQ(hook.compliance, 1e-5);
+    EXPECT_EQ(hook.break_force, 100.0);
+    EXPECT_EQ(hook.line, 5);
+    EXPECT_EQ(joint.name, "");
+    EXPECT_EQ(joint.to, "post");
+    EXPECT_EQ(std::get<AttachedPoint>(joint.where).at, glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(joint.compliance, 0.0);
+    EXPECT_FALSE(joint.break_force);
+    EXPECT_EQ(joint.line, 13);
+    EXPECT_EQ(hinge.to, "");
+    EXPECT_EQ(std::get<AttachedLine>(hinge.where).from, glm::dvec3(0.0, 1.0, -1.0));
+    EXPECT_EQ(std::get<AttachedLine>(hinge.where).to, glm::dvec3(0.0, 1.0, 1.5));
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(glue.where));
+}
+
+TEST_F(SceneFileAttachments, CopiesAreAttachedByTheirOwnNames) {
+    const std::string text =
+        "material = [{name = 'jelly'}]\n[[object]]\nname = 'drop'\nshape = {sphere = 1}\n"
+        "copies = {counts = [2, 1, 1], spacing = [3, 0, 0]}\n[[attachment]]\nobject = 'drop 1'\nto = ";
+    EXPECT_EQ(load(text + "'drop 2'").attachments.at(0).to, "drop 2");
+    EXPECT_EQ(error(text + "'drop'"),
+              "scene.toml:8: attachment[0].to = \"drop\": must be another object's name or a collider's (did "
+              "you mean \"drop 2\"?); there is drop 2");
+}
+
+TEST_F(SceneFileAttachments, CanBeOverridden) {
+    const std::string text = with("name = 'hook'\nobject = 'ball'\nto = 'beam'");
+    const Scene scene = load(
+        text, {"attachment.hook.compliance=2e-3", "attachment.0.to=post", "attachment.hook.point=[0, 7, 0]"});
+    EXPECT_EQ(scene.attachments.at(0).compliance, 2e-3);
+    EXPECT_EQ(scene.attachments[0].to, "post");
+    EXPECT_EQ(std::get<AttachedPoint>(scene.attachments[0].where).at, glm::dvec3(0.0, 7.0, 0.0));
+    EXPECT_EQ(error(text, {"attachment.hook.break_force=-1"}),
+              "--set attachment.hook.break_force=-1: attachment.hook.break_force = -1: must be greater than "
+              "0");
+}
+
+TEST_F(SceneFileAttachments, RefusesWrongKeysAndTypes) {
+    EXPECT_EQ(attachment_error("to = 'beam'"), "scene.toml:5: attachment[0]: needs \"object\"");
+    EXPECT_EQ(attachment_error("name = 'hook'\nobjekt = 'ball'"),
+              "scene.toml:7: attachment.hook.objekt = \"ball\": unknown key (did you mean \"object\"?)");
+    EXPECT_EQ(attachment_error("object = 'ball'\npiont = [0, 0, 0]"),
+              "scene.toml:7: attachment[0].piont = [0, 0, 0]: unknown key (did you mean \"point\"?)");
+    EXPECT_EQ(
+        attachment_error("object = 'ball'\nstrength = 3"),
+        "scene.toml:7: attachment[0].strength = 3: unknown key; known here are name, object, to, region, "
+        "point, line, compliance and break_force");
+    EXPECT_EQ(attachment_error("object = 3"),
+              "scene.toml:6: attachment[0].object = 3: must be a string, is a whole number");
+    EXPECT_EQ(attachment_error("object = 'ball'\npoint = [0, 1]"),
+              "scene.toml:7: attachment[0].point = [0, 1]: must be a list of 3 numbers, has 2");
+    EXPECT_EQ(attachment_error("object = 'ball'\nregion = {cone = 1}"),
+              "scene.toml:7: attachment[0].region: must have exactly one of box, sphere or plane");
+    EXPECT_EQ(error(std::string(kBall) + "[attachment]\nobject = 'ball'"),
+              "scene.toml:4: attachment: must be a list of tables: write [[attachment]]");
+}
+
+TEST_F(SceneFileAttachments, RefusesTwoOfRegionPointAndLine) {
+    EXPECT_EQ(
+        attachment_error("name = 'hook'\nobject = 'ball'\npoint = [0, 0, 0]\nline = [[0, 0, 0], [1, 0, 0]]"),
+        "scene.toml:5: attachment.hook: must have at most one of region, point or line, has point and "
+        "line");
+}
+
+TEST_F(SceneFileAttachments, RefusesWhatIsNoLine) {
+    const auto line_error = [&](const std::string& line) {
+        return attachment_error("object = 'ball'\nline = " + line);
+    };
+    EXPECT_EQ(line_error("[0, 1, 0]"),
+              "scene.toml:7: attachment[0].line = [0, 1, 0]: must be two points: [[x, y, z], [x, y, z]]");
+    EXPECT_EQ(line_error("[[0, 1, 0]]"),
+              "scene.toml:7: attachment[0].line = [[0, 1, 0]]: must be two points: [[x, y, z], [x, y, z]]");
+    EXPECT_EQ(line_error("[[0, 1, 0], [1, 0]]"),
+              "scene.toml:7: attachment[0].line = [[0, 1, 0], [1, 0]]: points must be three finite numbers "
+              "each");
+    EXPECT_EQ(line_error("[[0, 1, 0], [0, 'x', 0]]"),
+              "scene.toml:7: attachment[0].line = [[0, 1, 0], [0, \"x\", 0]]: points must be three finite "
+              "numbers each");
+}
+
+TEST_F(SceneFileAttachments, NamesTheLineOfAWrongValue) {
+    EXPECT_EQ(attachment_error("object = 'bal'\nto = 'beam'"),
+              "scene.toml:6: attachment[0].object = \"bal\": no such object (did you mean \"ball\"?); there "
+              "is ball and beam");
+    EXPECT_EQ(attachment_error("object = 'ball'\nto = 'flor'"),
+              "scene.toml:7: attachment[0].to = \"flor\": must be another object's name or a collider's (did "
+              "you mean \"floor\"?); there is beam, floor and post");
+    EXPECT_EQ(attachment_error("object = 'ball'"),
+              "scene.toml:5: attachment[0]: needs \"to\", or a region, a point or a line");
+    EXPECT_EQ(attachment_error("object = 'ball'\nregion = {sphere = [0, 0, 0], radius = 0}"),
+              "scene.toml:7: attachment[0].region.radius = 0: must be greater than 0");
+    EXPECT_EQ(attachment_error("name = 'hook'\nobject = 'ball'\npoint = [0, nan, 0]"),
+              "scene.toml:8: attachment.hook.point[1] = nan: must be finite");
+    EXPECT_EQ(attachment_error("object = 'ball'\nline = [[0, 1, 0], [0, 1, 0]]"),
+              "scene.toml:7: attachment[0].line = [[0, 1, 0], [0, 1, 0]]: must be two different points");
+    EXPECT_EQ(attachment_error("object = 'ball'\nto = 'beam'\ncompliance = -1"),
+              "scene.toml:8: attachment[0].compliance = -1: must be 0 or more");
+    EXPECT_EQ(attachment_error("name = 'a'\nobject = 'ball'\nto = 'beam'\n[[attachment]]\nname = 'a'\n"
+                               "object = 'beam'\nto = 'floor'"),
+              "scene.toml:10: attachment.a.name = \"a\": is taken by the attachment on line 5");
+    EXPECT_EQ(attachment_error("object = 'ball'\nto = 'beam'\n[simulation]\nsolver = 'rk4'"),
+              "scene.toml:5: attachment[0]: needs simulation.solver = \"implicit\"");
+}
+
 }  // namespace
 }  // namespace gelatin::test

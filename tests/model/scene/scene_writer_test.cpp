@@ -202,6 +202,39 @@ TEST(SceneWriter, WritesWhichHandlesStop) {
     EXPECT_THAT(read_file(folder.path() / "copy.toml"), ::testing::HasSubstr(handle));
 }
 
+TEST(SceneWriter, WritesAttachments) {
+    constexpr const char* kAttachments = R"([[attachment]]
+name = "a \"hook\""
+object = "ball"
+to = "beam"
+region = { sphere = [0, 1, 0], radius = 0.25 }
+compliance = 1e-05
+break_force = 100
+
+[[attachment]]
+object = "ball"
+to = "post"
+point = [0, 1.5, 0]
+
+[[attachment]]
+object = "beam"
+line = [[0, 1, -1], [0, 1, 1]]
+
+[[attachment]]
+object = "beam"
+to = "ball"
+)";
+    const TemporaryFolder folder;
+    write_file(folder.path() / "scene.toml",
+               "[[material]]\nname = 'm'\n[[object]]\nname = 'ball'\nshape = {sphere = 1}\n"
+               "[[object]]\nname = 'beam'\nshape = {sphere = 1}\n"
+               "[[collider]]\nname = 'post'\nshape = {sphere = 1}\n" +
+                   std::string(kAttachments));
+    save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
+    const std::string copy = read_file(folder.path() / "copy.toml");
+    EXPECT_EQ(copy.substr(copy.find("[[attachment]]")), kAttachments);
+}
+
 TEST(SceneWriter, WritesHowMaterialsPress) {
     constexpr const char* kText = R"([[collision.pair]]
 materials = ["ice", "rubber"]

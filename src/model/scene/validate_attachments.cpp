@@ -1,0 +1,127 @@
+#include "model/scene/validate_attachments.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "model/scene/names.h"
+#include "model/scene/validate_bodies.h"
+
+namespace gelatin {
+namespace {
+
+// "there is a, b and c"; of many names only how many there are.
+std::string those_there(const std::vector<std::string>& names) {
+    constexpr std::size_t kMost = 12;
+    if (names.empty()) return "there is none";
+    if (names.size() > kMost) return fmt::format("there are {}", names.size());
+    return "there is " + join_names(names);
+}
+
+class AttachmentCheck {
+public:
+    AttachmentCheck(const ValueChecks& checks, const Scene& scene) : checks_(checks), scene_(scene) {
+        for (const ObjectDescription& object : scene.objects) objects_.insert(object.name);
+        for (const ColliderDescription& collider : scene.colliders)
+            if (!collider.name.empty()) ++colliders_[collider.name];
+    }
+
+    void run(const FieldPath& field, const AttachmentDescription& attachment) const {
+        if (!is_implicit(scene_.simulation.solver))
+            checks_.fail(field, "", "needs simulation.solver = \"implicit\"");
+        if (!attachment.name.empty()) checks_.check_text(field / "name", attachment.name);
+        check_object(field / "object", attachment.object);
+        if (!attachment.to.empty()) check_to(field / "to", attachment);
+        check_where(field, attachment);
+        checks_.check(field / "compliance", attachment.compliance, kNotNegative);
+        checks_.check(field / "break_force", attachment.break_force, kPositive);
+    }
+
+private:
+    void check_object(const FieldPath& field, const std::string& name) const {
+        if (objects_.contains(name)) return;
+        std::vector<std::string> names;
+        for (const ObjectDescription& object : scene_.objects) names.push_back(object.name);
+        checks_.fail(field, text_of(name),
+                     fmt::format("no such object{}; {}", suggestion(name, names), those_there(names)));
+    }
+
+    // A name of an object and of colliders is the object's.
+    void check_to(const FieldPath& field, const AttachmentDescription& attachment) const {
+        const std::string& name = attachment.to;
+        const auto collider = colliders_.find(name);
+        if (name == attachment.object || (!objects_.contains(name) && collider == colliders_.end())) {
+            const std::vector<std::string> names = names_but(attachment.object);
+            checks_.fail(field, text_of(name),
+                         fmt::format("must be another object's name or a collider's{}; {}",
+                                     suggestion(name, names), those_there(names)));
+        }
+        if (!objects_.contains(name) && collider->second > 1) {
+            checks_.fail(field, text_of(name),
+                         fmt::format("must be the name of one collider, and {} have it", collider->second));
+        }
+    }
+
+    void check_where(const FieldPath& field, const AttachmentDescription& attachment) const {
+        if (const auto* region = std::get_if<Region>(&attachment.where))
+            check_region(checks_, field / "region", *region);
+        if (const auto* point = std::get_if<AttachedPoint>(&attachment.where))
+            checks_.check(field / "point", point->at);
+        if (const auto* line = std::get_if<AttachedLine>(&attachment.where))
+            check_line(field / "line", *line);
+        if (std::holds_alternative<std::monostate>(attachment.where) && attachment.to.empty())
+            checks_.fail(field, "", "needs \"to\", or a region, a point or a line");
+    }
+
+    void check_line(const FieldPath& field, const AttachedLine& line) const {
+        const auto fail = [&](const std::string& problem) {
+            checks_.fail(field, fmt::format("[{}, {}]", text_of(line.from), text_of(line.to)), problem);
+        };
+        for (int axis = 0; axis < 3; ++axis) {
+            if (problem_of(line.from[axis], kAnyNumber) || problem_of(line.to[axis], kAnyNumber))
+                fail(three_numbers_each("points"));
+        }
+        if (problem_of(glm::distance(line.from, line.to), kPositive)) fail("must be two different points");
+    }
+
+    // All that an attachment of `object` may be to.
+    std::vector<std::string> names_but(const std::string& object) const {
+        std::vector<std::string> names;
+        for (const ObjectDescription& other : scene_.objects)
+            if (other.name != object) names.push_back(other.name);
+        for (const ColliderDescription& collider : scene_.colliders) {
+            const std::string& name = collider.name;
+            if (!name.empty() && !objects_.contains(name) && colliders_.at(name) == 1) names.push_back(name);
+        }
+        return names;
+    }
+
+    const ValueChecks& checks_;
+    const Scene& scene_;
+    std::unordered_set<std::string_view> objects_;
+    std::unordered_map<std::string_view, int> colliders_;  // how many have this name
+};
+
+}  // namespace
+
+void check_attachments(const ValueChecks& checks, const Scene& scene) {
+    if (scene.attachments.empty()) return;
+    const AttachmentCheck check(checks, scene);
+    std::unordered_map<std::string_view, int> lines;  // by name
+    for (std::size_t a = 0; a < scene.attachments.size(); ++a) {
+        const AttachmentDescription& attachment = scene.attachments[a];
+        const FieldPath field("attachment", a);
+        check.run(field, attachment);
+        if (attachment.name.empty()) continue;
+        const auto [taken, is_new] = lines.emplace(attachment.name, attachment.line);
+        if (!is_new)
+            checks.fail(field / "name", text_of(attachment.name), name_taken("attachment", taken->second));
+    }
+}
+
+}  // namespace gelatin
