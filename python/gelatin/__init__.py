@@ -16,6 +16,9 @@ from .bodies import Body
 from .errors import Diverged, Error, GlError, InvalidInput, NoOpenGl, SystemError
 from .hands import Hand
 from .objects import (
+    AttachedLine,
+    AttachedPoint,
+    Attachment,
     Camera,
     Collider,
     Drag,
@@ -55,6 +58,9 @@ from .sweeps import sweep
 
 __version__ = version()
 __all__ = [
+    "AttachedLine",
+    "AttachedPoint",
+    "Attachment",
     "Batch",
     "Between",
     "Body",

@@ -1,4 +1,4 @@
-"""Objects of a scene, what holds and loads them, and colliders. SI units; `Scene.up` says which axis points up."""
+"""Objects of a scene, what holds, loads and attaches them, and colliders. SI units; `Scene.up` says which axis points up."""
 
 from __future__ import annotations
 
@@ -199,6 +199,47 @@ class Collider:
     when_blocked: Literal["goes_on", "stops"] = "goes_on"
     #: as of objects; not for planes
     up: Literal["x", "y", "z"] | None = None
+
+
+@dataclass(slots=True)
+class AttachedPoint:
+    """A ball joint. The point moves with what is there of both sides."""
+
+    #: [m], at the start
+    at: Vector
+
+
+@dataclass(slots=True)
+class AttachedLine:
+    """A hinge: all points of a line segment."""
+
+    #: one of its ends [m], at the start
+    start: Vector
+    #: the other one
+    end: Vector
+
+
+@dataclass(slots=True)
+class Attachment:
+    """Keeps points of an object where they are in another one, in a collider, or in space. For the solver "implicit".
+
+    Where it is glued, surfaces do not press each other.
+    """
+
+    #: name of an object
+    object: str
+    #: another object's name, or a collider's; empty: where it is in space
+    to: str = ""
+    #: which points: of a region, the object's nodes in it; None: the nodes of its surface that are near what it is attached to,
+    #: by a quarter of its median edge
+    where: Union[Region, AttachedPoint, AttachedLine, None] = None
+    #: of the whole attachment [m/N], >= 0; 0: as stiff as the bodies
+    compliance: float = 0.0
+    #: at which it breaks [N], > 0; None: never
+    break_force: float | None = None
+    #: in messages; empty: "attachment 1", by its place in the scene
+    name: str = ""
+    line: int = field(default=0, repr=False)
 
 
 @dataclass(slots=True)

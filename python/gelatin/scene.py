@@ -13,8 +13,9 @@ from typing import Any, Literal, Union, cast
 
 from . import _gelatin
 from .arguments import texts
-from .objects import Camera, Collider, Object
-from .shapes import File, Plane, Shape, Vector
+from .errors import InvalidInput
+from .objects import AttachedLine, AttachedPoint, Attachment, Camera, Collider, Object
+from .shapes import File, Plane, Region, Shape, Vector
 
 
 @dataclass(slots=True)
@@ -128,6 +129,7 @@ class Scene:
     materials: list[Material] = field(default_factory=list)
     objects: list[Object] = field(default_factory=list)
     colliders: list[Collider] = field(default_factory=list)
+    attachments: list[Attachment] = field(default_factory=list)
     #: None: chosen so that pictures show the whole scene
     camera: Camera | None = None
     #: the shapes' meshes, if the scene is a recording's; None: they are made of the shapes
@@ -178,6 +180,30 @@ class Scene:
         collider = Collider(shape, **fields)
         self.colliders.append(collider)
         return collider
+
+    def add_attachment(
+        self,
+        object: Union[str, Object],
+        to: Union[str, Object, Collider] = "",
+        where: Union[Region, AttachedPoint, AttachedLine, None] = None,
+        **fields: Any,
+    ) -> Attachment:
+        """Attaches an object to another one, to a collider, or to where it is in space. `fields` are those of `gelatin.Attachment`.
+
+        object: its name, or itself.
+        to: a name, or an object or collider itself, which must have a name; empty: space.
+        where: which points; None: those of its surface that are near `to`.
+        """
+        if isinstance(to, Collider) and not to.name:
+            raise InvalidInput("to: a collider without a name: gelatin.Collider.name names it")
+        attachment = Attachment(
+            object.name if isinstance(object, Object) else object,
+            to.name if isinstance(to, (Object, Collider)) else to,
+            where,
+            **fields,
+        )
+        self.attachments.append(attachment)
+        return attachment
 
     def validate(self) -> None:
         """Checks every value, as a simulator does by itself.

@@ -22,10 +22,11 @@ from .shapes import File, Mesh
 
 #: Keys of scene files whose fields have other names in Python.
 FIELDS = {
-    "Scene": {"material": "materials", "object": "objects", "collider": "colliders"},
+    "Scene": {"material": "materials", "object": "objects", "collider": "colliders", "attachment": "attachments"},
     "CollisionSettings": {"pair": "pairs"},
     "Object": {"handle": "handles", "load": "loads", "part": "parts"},
     "Load": {"from": "start", "force": "kind.sum", "traction": "kind.stress", "pressure": "kind.pressure"},
+    "Attachment": {"region": "where", "point": "where.at", "line": "where"},
     "Sphere": {"sphere": "radius"},
     "Box": {"box": "size"},
     "Capsule": {"capsule": "radius"},
@@ -229,7 +230,9 @@ def find(scene: Scene, key: str) -> tuple[Any, str]:
         below = [str(getattr(e, "name", i)) for i, e in enumerate(value)] if isinstance(value, list) else list(_names(value))
         raise InvalidInput(f"vary: {key}: must name a value, as {place}.{below[0]} does; below it are {', '.join(below)}")
     if field not in {f.name for f in dataclasses.fields(owner)}:
-        raise InvalidInput(f"vary: {key}: this load is a {type(owner).__name__.lower()}")
+        kind, missing = parts[-3], parts[-1]
+        other = f"is a {type(owner).__name__.lower()}" if kind == "load" else f"has no {missing}"
+        raise InvalidInput(f"vary: {key}: this {kind} {other}")
     return owner, field
 
 

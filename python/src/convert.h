@@ -72,6 +72,18 @@ struct IsVariant : std::false_type {};
 template <class... Kinds>
 struct IsVariant<std::variant<Kinds...>> : std::true_type {};
 
+/// Python's None is what a variant has that holds nothing.
+inline bool is_instance(nb::handle source, std::monostate* /*type*/) {
+    return source.is_none();
+}
+inline std::string class_names(std::monostate* /*type*/) {
+    return "None";
+}
+inline void read(nb::handle /*source*/, const std::string& /*where*/, std::monostate& /*value*/) {}
+inline nb::object to_python(std::monostate /*value*/) {
+    return nb::none();
+}
+
 /// Whether a Python object is of the class, or one of the classes, that a C++ type stands for.
 template <class T>
 bool is_instance(nb::handle source, T* /*type*/) {

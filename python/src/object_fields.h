@@ -178,6 +178,40 @@ struct Fields<ColliderDescription> {
 };
 
 template <>
+struct Fields<AttachedPoint> {
+    static constexpr const char* kClass = "AttachedPoint";
+    static void visit(AttachedPoint& p, auto&& field) {
+        auto& [at] = p;
+        field("at", at);
+    }
+};
+
+template <>
+struct Fields<AttachedLine> {
+    static constexpr const char* kClass = "AttachedLine";
+    static void visit(AttachedLine& l, auto&& field) {
+        auto& [from, to] = l;
+        field("start", from);  // `from` is a word of Python's own
+        field("end", to);
+    }
+};
+
+template <>
+struct Fields<AttachmentDescription> {
+    static constexpr const char* kClass = "Attachment";
+    static void visit(AttachmentDescription& a, auto&& field) {
+        auto& [name, object, to, where, compliance, break_force, line] = a;
+        field("name", name);
+        field("object", object);
+        field("to", to);
+        field("where", where);
+        field("compliance", compliance);
+        field("break_force", break_force);
+        field("line", line);
+    }
+};
+
+template <>
 struct Fields<CameraDescription> {
     static constexpr const char* kClass = "Camera";
     static void visit(CameraDescription& c, auto&& field) {

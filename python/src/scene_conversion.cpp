@@ -49,7 +49,7 @@ nb::dict scene_defaults() {
                        SphereShape, BoxShape, CapsuleShape, TextShape, MesherSettings, Keyframe,
                        DragDescription, HandleDescription, ForceLoad, TractionLoad, PressureLoad,
                        LoadDescription, PartDescription, StartDescription, ObjectDescription, PlaneCollider,
-                       ColliderDescription, CameraDescription, Scene>();
+                       ColliderDescription, AttachmentDescription, CameraDescription, Scene>();
 }
 
 }  // namespace gelatin::python

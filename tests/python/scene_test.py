@@ -75,6 +75,12 @@ def scene_with_everything():
             gelatin.Sphere(), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 0.7, 0.1, frames, "smooth", (1.0, 0.0, 1.0), (2.0, 0.0, 2.0), "belt", 3.0, "stops", up="x"
         )
     )
+    scene.attachments = [
+        gelatin.Attachment("o", "belt", ball, 0.1, 2.0, "hook", line=8),
+        gelatin.Attachment("o", where=gelatin.AttachedPoint((1.0, 2.0, 3.0))),
+        gelatin.Attachment("o", where=gelatin.AttachedLine((1.0, 2.0, 3.0), (4.0, 5.0, 6.0))),
+        gelatin.Attachment("o", "belt"),
+    ]
     scene.camera = gelatin.Camera((1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 40.0)
     scene.file = "scene.toml"
     return scene
@@ -192,6 +198,11 @@ def test_vectors_may_be_arrays():
         (lambda s: setattr(s.objects[0], "skin", "no"), "object.o.skin = 'no': must be True or False"),
         (lambda s: setattr(s.colliders[0], "position", ()), "colliders[0].position = (): must be three numbers"),
         (lambda s: setattr(s.colliders[1], "position", ()), "collider.belt.position = (): must be three numbers"),
+        (lambda s: setattr(s.attachments[1], "to", None), "attachments[1].to = None: must be a str"),
+        (
+            lambda s: setattr(s.attachments[0], "where", 3),
+            "attachment.hook.where = 3: must be one of None, BoxRegion, SphereRegion, HalfSpaceRegion, AttachedPoint, AttachedLine",
+        ),
         (lambda s: setattr(s, "camera", 3), "camera = 3: must be a Camera"),
         (lambda s: setattr(s.objects[0], "name", 3), "objects[0].name = 3: must be a str"),
     ],
@@ -249,3 +260,34 @@ def test_add_takes_paths_and_materials():
     scene.add("other", gelatin.Sphere())
     with pytest.raises(gelatin.InvalidInput, match='object.other: needs "material": one of jelly or rubber'):
         scene.validate()
+
+
+def test_attachments_are_added_by_names_or_by_what_has_them():
+    scene = gelatin.Scene()
+    scene.add_material("jelly")
+    ball = scene.add("ball", gelatin.Sphere())
+    scene.add("beam", gelatin.Box())
+    post = scene.add_collider(gelatin.Sphere(), name="post")
+    joint = gelatin.AttachedPoint((0.0, 1.0, 0.0))
+    assert scene.add_attachment(ball, "beam", joint, break_force=5.0) == gelatin.Attachment("ball", "beam", joint, break_force=5.0)
+    assert scene.add_attachment("beam", ball).to == "ball"
+    assert scene.add_attachment("beam", post).to == "post"
+    assert scene.add_attachment("ball", where=joint).to == ""
+    assert len(scene.attachments) == 4
+    scene.validate()
+    scene.attachments[0].to = "bean"
+    with pytest.raises(gelatin.InvalidInput, match=r"attachment\[0\].to .*did you mean .beam.*there is beam and post"):
+        scene.validate()
+    with pytest.raises(gelatin.InvalidInput, match="a collider without a name"):
+        scene.add_attachment(ball, scene.add_collider())
+
+
+def test_attachments_of_files(tmp_path):
+    file = tmp_path / "attached.toml"
+    file.write_text(
+        '[[material]]\nname = "m"\n[[object]]\nname = "a"\nshape = { sphere = 1 }\n[[object]]\nname = "b"\nshape = { sphere = 1 }\n'
+        '[[attachment]]\nobject = "a"\nto = "b"\n[[attachment]]\nname = "hinge"\nobject = "b"\nline = [[0, 1, 0], [0, 1, 2]]\n'
+    )
+    glue, hinge = gelatin.load(file, {"attachment.hinge.compliance": 0.5}).attachments
+    assert glue == gelatin.Attachment("a", "b", line=9)
+    assert hinge == gelatin.Attachment("b", "", gelatin.AttachedLine((0.0, 1.0, 0.0), (0.0, 1.0, 2.0)), 0.5, None, "hinge", 12)

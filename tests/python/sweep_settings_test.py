@@ -80,6 +80,7 @@ def scene_with_names():
     ball.handles.append(gelatin.Handle(gelatin.HalfSpaceRegion((0, 1, 0), 1.6), [gelatin.Keyframe(), gelatin.Keyframe(1.0)]))
     ball.loads.append(gelatin.Load(gelatin.SphereRegion((0, 2, 0), 0.2), gelatin.Pressure(5.0)))
     scene.colliders[0].name = "floor"
+    scene.add_attachment("ball", "floor", gelatin.AttachedPoint((0.0, 0.0, 0.0)), name="joint")
     return scene
 
 
@@ -95,6 +96,8 @@ def scene_with_names():
         ("object.ball.load.0.pressure", 7.0, lambda s: s.objects[0].loads[0].kind.pressure),
         ("object.ball.load.0.from", 0.5, lambda s: s.objects[0].loads[0].start),
         ("collider.floor.friction", 0.9, lambda s: s.colliders[0].friction),
+        ("attachment.joint.compliance", 0.5, lambda s: s.attachments[0].compliance),
+        ("attachment.0.point", [0, 1, 0], lambda s: s.attachments[0].where.at),
     ],
 )
 def test_keys_are_those_of_scene_files(key, value, read):
@@ -136,6 +139,19 @@ def test_every_key_leads_to_a_field():
     for key in ("object.ball.load.0.traction", "object.ball.load.0.force"):
         with pytest.raises(gelatin.InvalidInput, match="this load is a pressure"):
             find(scene, key)
+    joint = scene.attachments[0]
+    for where, key in (
+        (gelatin.SphereRegion((0, 2, 0), 0.2), "region.sphere"),
+        (gelatin.AttachedLine((0, 0, 0), (0, 0, 1)), "line.end"),
+        (gelatin.AttachedPoint((0, 0, 0)), "point"),
+    ):
+        joint.where = where
+        owner, field = find(scene, f"attachment.joint.{key}")
+        assert owner is where and hasattr(where, field)
+    for where in (None, gelatin.AttachedLine((0, 0, 0), (0, 0, 1))):
+        joint.where = where
+        with pytest.raises(gelatin.InvalidInput, match="this attachment has no point"):
+            find(scene, "attachment.joint.point")
     for shape, key in (
         (gelatin.Box(), "box"),
         (gelatin.Capsule(), "capsule"),
