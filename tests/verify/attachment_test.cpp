@@ -241,30 +241,38 @@ TEST(Attachments, BreakWhereTheyCarryTooMuch) {
     }
 }
 
-// What is glued together flies as one: nothing is lost or gained.
-TEST(Attachments, KeepMomentumAndAngularMomentum) {
+// What is attached flies as one: nothing is lost or gained. @param at of a joint; none: all is glued
+void expect_kept(std::optional<glm::dvec3> joint, double angular) {
     Scene scene = scene_of(jelly(1e5), 0.0);
     scene.objects = {box("a", {0.3, 0.2, 0.2}, {-0.153, 0.0, 0.0}),
                      box("b", {0.3, 0.2, 0.2}, {0.153, 0.0, 0.0}),
-                     box("c", {0.1, 0.1, 0.1}, {0.0, 0.2, 0.0})};
+                     box("c", {0.1, 0.1, 0.1}, {-0.1, joint ? 0.2 : 0.155, 0.0})};
     scene.objects[0].velocity = {0.5, -1.0, 0.3};
     scene.objects[1].velocity = {0.1, 1.0, 0.3};
-    scene.attachments = {{.object = "b", .to = "a"},
-                         {.object = "c", .to = "a", .where = AttachedPoint{{-0.02, 0.12, 0.0}}}};
+    scene.attachments = {{.object = "b", .to = "a"}, {.object = "c", .to = "a"}};
+    if (joint) scene.attachments[1].where = AttachedPoint{*joint};
     AttachedRun run(scene);
     const glm::dvec3 p = run.momentum(), l = run.angular_momentum();
-    double most = run.energy();
-    const double start = most;
+    const double start = run.energy();
+    double most = start;
     for (int k = 0; k < 30; ++k) {
         run.advance(0.1);
         most = std::max(most, run.energy());
     }
-    EXPECT_LT(glm::distance(run.momentum(), p), 1e-4 * 25.0);
-    // The guard moves nodes by a little where "c" swings against "a".
-    EXPECT_LT(glm::distance(run.angular_momentum(), l), 3e-3 * glm::length(l));
+    EXPECT_LT(glm::distance(run.momentum(), p), 1e-5 * 25.0);
+    EXPECT_LT(glm::distance(run.angular_momentum(), l), angular * glm::length(l));
     EXPECT_LT(most, 1.002 * start);
     EXPECT_GT(run.energy(), 0.5 * start);
     EXPECT_EQ(run.overlaps(), 0u);
+}
+
+TEST(Attachments, KeepMomentumAndAngularMomentum) {
+    expect_kept({}, 1e-4);
+}
+
+// The guard moves nodes by a little where the small box swings against the others.
+TEST(Attachments, KeepMomentumWhereBodiesSwing) {
+    expect_kept(glm::dvec3(-0.1, 0.13, 0.0), 1e-2);
 }
 
 TEST(Attachments, ALightBodyCarriesAThousandTimesItsMass) {
@@ -339,7 +347,7 @@ TEST(Attachments, WhatIsGluedDoesNotPress) {
     scene.objects[2].position.y = 0.594;
     AttachedRun run(scene);
     run.advance(1.0);
-    EXPECT_LT(glm::length(run.force(1)), 1e-3);
+    EXPECT_LT(glm::length(run.force(1)), 5e-3);
     EXPECT_TRUE(run.simulator().contact_forces().empty());
 }
 

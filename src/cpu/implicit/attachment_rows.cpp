@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "cpu/contact/tuning.h"
 
 namespace gelatin::cpu {
@@ -66,6 +67,18 @@ bool AttachmentRows<Real>::are_tied(const ContactPair& pair) const {
 template <class Real>
 bool AttachmentRows<Real>::is_tied_to_plane(std::uint32_t node, std::uint32_t plane) const {
     return !attachments_.empty() && is_tied(node, static_cast<std::uint32_t>(model_->objects.size()) + plane);
+}
+
+template <class Real>
+std::vector<std::uint32_t> AttachmentRows<Real>::groups() const {
+    DisjointSets sets(model_->body_count());
+    for (std::size_t a = 0; a < attachments_.size(); ++a)
+        if (const std::uint32_t other = attachments_[a].other;
+            !is_broken(a) && other != kNoNode && model_->is_body(other))
+            sets.unite(attachments_[a].object, other);
+    std::vector<std::uint32_t> groups(model_->body_count());
+    for (std::uint32_t o = 0; o < groups.size(); ++o) groups[o] = sets.least(o);
+    return groups;
 }
 
 // A tie is like friction that never slides: it holds in all directions, from where its points should be.

@@ -29,6 +29,8 @@ public:
     /// Whether two sides are tied together at one of these nodes, so that they do not press each other.
     bool are_tied(const ContactPair& pair) const;
     bool is_tied_to_plane(std::uint32_t node, std::uint32_t plane) const;
+    /// Of each body the least one that it is attached to, by others or not.
+    std::vector<std::uint32_t> groups() const;
     /// Adds those that are not broken, but for bodies asleep.
     /// @param positions when a step begins [m] @param compliances as in ContactRows::Start
     void add(std::span<const Vec4<Real>> positions, std::span<const Real> compliances,

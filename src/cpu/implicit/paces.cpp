@@ -41,10 +41,11 @@ template <class Real>
 bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::span<ContactRow<Real>> rows,
                          TimeScheme<Real>& scheme) const {
     std::vector<Pace> paces(model_->body_count(), Pace::still);
-    std::vector<std::uint8_t> is_struck(model_->body_count()), touches = is_struck, resolves = is_struck;
+    std::vector<std::uint8_t> is_struck(model_->body_count()), touches = is_struck, resolves = is_struck,
+                                                               attached = is_struck;
     for (const ContactRow<Real>& row : rows)
-        if (!row.is_tie())
-            touches[islands.of_bodies[model_->is_body(row.other) ? row.other : row.object]] = 1;
+        (row.is_tie() ? attached
+                      : touches)[islands.of_bodies[model_->is_body(row.other) ? row.other : row.object]] = 1;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands.of_bodies[o];
         paces[island] = std::min(paces[island], paces_[o]);
@@ -65,7 +66,7 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
         }
         any_goes_on = any_goes_on || goes_on;
     }
-    scheme.tie(islands.of_bodies);
+    scheme.tie(islands.of_bodies, attached);
     for (ContactRow<Real>& row : rows) {
         const std::uint32_t body = model_->is_body(row.other) ? row.other : row.object;
         row.damping = scheme.of(body).damping / step * row.slope_of(row.gap);

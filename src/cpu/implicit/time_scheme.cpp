@@ -1,5 +1,6 @@
 #include "cpu/implicit/time_scheme.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -33,14 +34,16 @@ void TimeScheme<Real>::forget() {
 }
 
 template <class Real>
-void TimeScheme<Real>::tie(std::span<const std::uint32_t> islands_of_bodies) {
+void TimeScheme<Real>::tie(std::span<const std::uint32_t> islands_of_bodies,
+                           std::span<const std::uint8_t> attached) {
     std::vector<std::uint8_t> any_past(tied_.size()), any_euler(tied_.size());
     for (std::size_t o = 0; o < tied_.size(); ++o)
         (schemes_[o].past > Real(0) ? any_past : any_euler)[tied_[o]] = 1;
     DisjointSets sets(tied_.size());
     for (std::uint32_t o = 0; o < tied_.size(); ++o) {
         const std::uint32_t least = tied_[o];
-        schemes_[o].is_whole = any_past[least] != 0 && any_euler[least] != 0;
+        schemes_[o].is_whole =
+            attached[islands_of_bodies[o]] != 0 || (any_past[least] != 0 && any_euler[least] != 0);
         if (any_euler[least] == 0) sets.unite(o, least);
         sets.unite(o, islands_of_bodies[o]);
     }
@@ -164,38 +167,64 @@ typename TimeScheme<Real>::Momenta TimeScheme<Real>::momenta(std::size_t body,
         momentum += m * v;
         angular += m * glm::cross(r, v);
     }
-    return {momentum, angular - glm::cross(middle, momentum) / mass};
+    middle /= mass;
+    return {momentum, angular - glm::cross(middle, momentum), origin + middle, mass};
 }
 
 template <class Real>
-void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<const Vec3<Real>> forces,
-                                    Nodes<Real>& current) const {
-    for_each_index(0, momenta_.size(), 1, [&](std::size_t o) {
-        if (!rigid.is_free(o)) return;
-        const Range& nodes = model_->objects[o].nodes;
-        const glm::dvec3 origin(current.positions[nodes.first]);
+void TimeScheme<Real>::Momenta::add(const Momenta& more) {
+    const glm::dvec3 middle = (mass * center + more.mass * more.center) / (mass + more.mass);
+    angular +=
+        glm::cross(center - middle, linear) + more.angular + glm::cross(more.center - middle, more.linear);
+    linear += more.linear;
+    center = middle;
+    mass += more.mass;
+}
+
+template <class Real>
+void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<const std::uint32_t> groups,
+                                    std::span<const Vec3<Real>> forces, Nodes<Real>& current) const {
+    std::vector<std::vector<std::uint32_t>> members(groups.size());
+    for (std::uint32_t o = 0; o < groups.size(); ++o) members[groups[o]].push_back(o);
+    for_each_index(0, members.size(), 1, [&](std::size_t g) {
+        const std::vector<std::uint32_t>& bodies = members[g];
+        if (bodies.empty() ||
+            !std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t o) { return rigid.is_free(o); }))
+            return;
+        const glm::dvec3 origin(current.positions[model_->objects[g].nodes.first]);
         RigidSums sums;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+        Momenta had, has, before;
+        const auto for_nodes = [&](const auto& visit) {
+            for (const std::uint32_t o : bodies)
+                for (std::uint32_t n = model_->objects[o].nodes.first; n < model_->objects[o].nodes.end();
+                     ++n)
+                    visit(n);
+        };
+        for_nodes([&](std::uint32_t n) {
             sums.add(glm::dvec3(current.positions[n]) - origin, mass_of(n, current.positions[n]),
                      glm::dvec3(forces[n]));
+        });
+        for (const std::uint32_t o : bodies) {
+            had.add(momenta_[o]);
+            has.add(momenta(o, current.positions, current.velocities));
+        }
         const RigidInertia inertia(sums);
-        const Scheme s = of_momenta(o);
+        const Scheme s = of_momenta(g);
         const auto h = static_cast<double>(s.length), past = static_cast<double>(s.past),
                    alpha = static_cast<double>(s.alpha), gamma = static_cast<double>(s.gamma);
-        const Momenta forces_now{sums.force + glm::dvec3(model_->gravity) / inertia.inverse_mass,
-                                 sums.moment - glm::cross(inertia.center, sums.force)};
-        const Momenta &had = momenta_[o], &before = rates_[o];
-        const Momenta has = momenta(o, current.positions, current.velocities);
+        const glm::dvec3 weight = glm::dvec3(model_->gravity) / inertia.inverse_mass;
+        const Momenta forces_now{sums.force + weight, sums.moment - glm::cross(inertia.center, sums.force)};
+        if (bodies.size() == 1) before = rates_[g];
         const auto lacking = [&](glm::dvec3 Momenta::*part) {
             const glm::dvec3 now = (forces_now.*part + past * alpha * before.*part) / (1.0 + alpha);
             return had.*part + h * (past * (1.0 - gamma) * before.*part + gamma * now) - has.*part;
         };
         const Twist missing{inertia.inverse_mass * lacking(&Momenta::linear),
                             inertia.inverse_inertia * lacking(&Momenta::angular)};
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        for_nodes([&](std::uint32_t n) {
             const glm::dvec3 r = glm::dvec3(current.positions[n]) - origin - inertia.center;
             current.velocities[n] += Vec4<Real>(Vec3<Real>(missing.at(r)), 0);
-        }
+        });
     });
 }
 

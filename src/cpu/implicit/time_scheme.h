@@ -54,15 +54,18 @@ public:
     /// When all schemes are set. Of a force this scheme leaves a part to later steps, of a body and of what
     /// it touched alike. So where bodies that touched each other go on by different schemes, what is left is
     /// dropped for all of them. @param islands_of_bodies of each body the least one of its island
-    void tie(std::span<const std::uint32_t> islands_of_bodies);
+    /// @param attached islands: of their momenta nothing is left
+    void tie(std::span<const std::uint32_t> islands_of_bodies, std::span<const std::uint8_t> attached);
     /// y - x of a node [m]. @param acceleration g [m/s^2]
     Vec3<Real> target(const Nodes<Real>& previous, std::size_t node, const Vec3<Real>& acceleration) const;
     /// At the end, if it was displaced by so much [m/s].
     Vec3<Real> velocity(const Nodes<Real>& previous, std::size_t node, const Vec3<Real>& displacement) const;
     /// Momentum and angular momentum of free bodies, of which what was not solved would lose some, change by
-    /// what acts on them. @param forces of all but elements and gravity [N], shape [nodes]
-    void keep_momenta(const RigidLevel<Real>& rigid, std::span<const Vec3<Real>> forces,
-                      Nodes<Real>& current) const;
+    /// what acts on them. Those of a group do so together: what a light one passes on from one side to the
+    /// other would rotate it by its rounding. @param groups of each body the least one of its group
+    /// @param forces of all but elements and gravity [N], shape [nodes]
+    void keep_momenta(const RigidLevel<Real>& rigid, std::span<const std::uint32_t> groups,
+                      std::span<const Vec3<Real>> forces, Nodes<Real>& current) const;
     /// It was made.
     void end(const Nodes<Real>& previous, const Nodes<Real>& current);
 
@@ -72,6 +75,10 @@ private:
     // [kg m/s]; about the centre of mass [kg m^2/s].
     struct Momenta {
         glm::dvec3 linear{0.0}, angular{0.0};
+        glm::dvec3 center{0.0};  // [m]
+        double mass = 0.0;       // [kg]
+
+        void add(const Momenta& more);
     };
     // By which a body's momenta go.
     Scheme of_momenta(std::size_t body) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
 #include "cpu/contact/tuning.h"
@@ -57,7 +58,8 @@ void EndReference::find_rows() {
     }
     std::span<const cpu::NearPair<double>> near = pairs_.pairs();
     if (is_apart) near = {};
-    rows.make({from.positions, expected_, compliances_, slacks_, h, scheme.last_step()}, near, system.rows);
+    rows.make({from.positions, expected_, compliances_, slacks_, h, scheme.last_step()}, near,
+              cpu::AttachmentRows<double>(model_), system.rows);
     system.rows.insert(system.rows.end(), own_rows.begin(), own_rows.end());
 }
 
@@ -125,7 +127,9 @@ void EndReference::finish() {
         if (from.positions[n].w > 0.0)
             to.velocities[n] = glm::dvec4(scheme.velocity(from, n, d), from.velocities[n].w);
     }
-    scheme.keep_momenta(system.rigid, forces, to);
+    std::vector<std::uint32_t> each(islands.of_bodies.size());
+    std::iota(each.begin(), each.end(), 0u);
+    scheme.keep_momenta(system.rigid, each, forces, to);
 }
 
 double EndReference::measure() {
