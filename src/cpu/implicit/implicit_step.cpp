@@ -499,6 +499,46 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
         current.velocities[n] = Vec4<Real>(scheme_.velocity(previous, n, d[n]), v.w);
     });
     scheme_.keep_momenta(system_.rigid, forces, current);
+    if (!attachments_.attachments().empty()) keep_angular_momenta(previous, current);
+}
+
+// Schemes keep that of each body about itself, but not quite what bodies have that move about each other:
+// those that are tied together would lose it within seconds.
+template <class Real>
+void ImplicitStep<Real>::keep_angular_momenta(const Nodes<Real>& previous, Nodes<Real>& current) const {
+    std::vector<std::uint8_t> are_tied(model_->body_count());  // islands
+    for (const ContactRow<Real>& row : system_.rows)
+        if (row.is_tie() && row.object != kNoNode) are_tied[islands_.of_bodies[row.other]] = 1;
+    std::vector<RigidSums> before(are_tied.size()), after = before;  // with momenta for forces
+    const auto for_nodes = [&](const auto& visit) {
+        for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
+            const std::uint32_t island = islands_.of_bodies[object_of_[n]];
+            if (are_tied[island] != 0 && islands_.are_held[island] == 0) visit(n, island);
+        }
+    };
+    const auto add = [&](const Nodes<Real>& nodes, std::uint32_t n, RigidSums& sums) {
+        const double mass = 1.0 / static_cast<double>(nodes.positions[n].w);
+        sums.add(glm::dvec3(nodes.positions[n]), mass, mass * glm::dvec3(nodes.velocities[n]));
+    };
+    for_nodes([&](std::uint32_t n, std::uint32_t island) {
+        add(previous, n, before[island]);
+        add(current, n, after[island]);
+    });
+    std::vector<Twist> lost(are_tied.size());
+    std::vector<glm::dvec3> centers(are_tied.size());
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        if (are_tied[i] == 0 || islands_.are_held[i] != 0) continue;
+        const RigidInertia had(before[i]), has(after[i]);
+        centers[i] = has.center;
+        const auto about_center = [](const RigidInertia& inertia, const RigidSums& sums) {
+            return sums.moment - glm::cross(inertia.center, sums.force);
+        };
+        lost[i].spin = has.inverse_inertia * (about_center(had, before[i]) - about_center(has, after[i]));
+    }
+    for_nodes([&](std::uint32_t n, std::uint32_t island) {
+        const glm::dvec3 arm = glm::dvec3(current.positions[n]) - centers[island];
+        current.velocities[n] += Vec4<Real>(Vec3<Real>(lost[island].at(arm)), 0);
+    });
 }
 
 template <class Real>

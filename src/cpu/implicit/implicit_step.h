@@ -115,6 +115,7 @@ private:
     std::vector<std::uint32_t> stop_guarded(const Nodes<Real>& previous, Nodes<Real>& current) const;
     bool moves_bodies(const Nodes<Real>& previous) const;
     void finish(const StepInput<Real>& input, const Nodes<Real>& previous, Nodes<Real>& current);
+    void keep_angular_momenta(const Nodes<Real>& previous, Nodes<Real>& current) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
