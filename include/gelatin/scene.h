@@ -362,7 +362,7 @@ struct AttachmentDescription {
     std::string object;     ///< a name in Scene::objects
     std::string to = {};    ///< another object's name, or a collider's; empty: where it is in space
     /// Which points: of a region, the object's nodes in it. None: the nodes of its surface that are near what
-    /// it is attached to, by a quarter of its median edge.
+    /// it is attached to, by half of its median edge.
     std::variant<std::monostate, Region, AttachedPoint, AttachedLine> where = {};
     double compliance = 0.0;  ///< of the whole attachment [m/N], >= 0; 0: as stiff as the bodies
     std::optional<double> break_force = {};  ///< at which it breaks [N], > 0; empty: never

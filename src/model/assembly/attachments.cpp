@@ -18,7 +18,7 @@
 namespace gelatin {
 namespace {
 
-constexpr double kNear = 0.25;           // glued without a region, in median edges of the object
+constexpr double kNear = 0.5;            // glued without a region, in median edges of the object
 constexpr double kFar = 4.0;             // from what carries a point, in median edges of that
 constexpr std::size_t kMostOnLine = 64;  // points
 
@@ -211,9 +211,10 @@ private:
         } else {
             nodes = near_nodes();
             if (nodes.empty())
-                fail("to", fmt::format("'{}' has no node within {:.3g} m of '{}', a quarter of its edges: a "
-                                       "region can name some that are farther",
-                                       object.name, kNear * own_->edge(), description_.to));
+                fail("to",
+                     fmt::format("'{}' has no node within {:.3g} m of '{}', half an edge of its surface: a "
+                                 "region can name some that are farther",
+                                 object.name, kNear * own_->edge(), description_.to));
         }
         std::vector<glm::dvec3> points;
         std::vector<Tie> ties(nodes.size());
@@ -263,8 +264,9 @@ private:
         for (const glm::dvec3& point : points) {
             if (hull.find_nearest(point, most) || is_inside(hull, point)) continue;
             fail(key,
-                 fmt::format("[{:.4g}, {:.4g}, {:.4g}] is farther than {:.3g} m from '{}', four of its edges",
-                             point.x, point.y, point.z, most, carrier.name()));
+                 fmt::format(
+                     "[{:.4g}, {:.4g}, {:.4g}] is farther than {:.3g} m from '{}', four edges of its surface",
+                     point.x, point.y, point.z, most, carrier.name()));
         }
     }
 
