@@ -231,7 +231,7 @@ class Attachment:
     #: another object's name, or a collider's; empty: where it is in space
     to: str = ""
     #: which points: of a region, the object's nodes in it; None: the nodes of its surface that are near what it is attached to,
-    #: by a quarter of its median edge
+    #: by half of its median edge
     where: Union[Region, AttachedPoint, AttachedLine, None] = None
     #: of the whole attachment [m/N], >= 0; 0: as stiff as the bodies
     compliance: float = 0.0

@@ -194,14 +194,7 @@ class Scene:
         to: a name, or an object or collider itself, which must have a name; empty: space.
         where: which points; None: those of its surface that are near `to`.
         """
-        if isinstance(to, Collider) and not to.name:
-            raise InvalidInput("to: a collider without a name: gelatin.Collider.name names it")
-        attachment = Attachment(
-            object.name if isinstance(object, Object) else object,
-            to.name if isinstance(to, (Object, Collider)) else to,
-            where,
-            **fields,
-        )
+        attachment = attachment_of(object, to, where, **fields)
         self.attachments.append(attachment)
         return attachment
 
@@ -211,6 +204,23 @@ class Scene:
         Raises InvalidInput, naming the field, its value and what is allowed; TypeError for a value of a wrong type.
         """
         _gelatin.validate(self)
+
+
+def attachment_of(
+    object: Union[str, Object],
+    to: Union[str, Object, Collider] = "",
+    where: Union[Region, AttachedPoint, AttachedLine, None] = None,
+    **fields: Any,
+) -> Attachment:
+    """As Scene.add_attachment, but of no scene."""
+    if isinstance(to, Collider) and not to.name:
+        raise InvalidInput("to: a collider without a name: gelatin.Collider.name names it")
+    return Attachment(
+        object.name if isinstance(object, Object) else object,
+        to.name if isinstance(to, (Object, Collider)) else to,
+        where,
+        **fields,
+    )
 
 
 def load(

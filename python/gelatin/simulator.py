@@ -15,11 +15,12 @@ from .arguments import check_function, text, texts, whole_number
 from .bodies import Body
 from .errors import InvalidInput
 from .hands import Hand
-from .objects import Camera
+from .objects import AttachedLine, AttachedPoint, Attachment, Camera, Collider, Object
 from .pictures import Picture
 from .progress import counted, frames_with_bar
 from .recording import Recorder
-from .scene import Scene, load
+from .scene import Scene, attachment_of, load
+from .shapes import Region
 
 Array = npt.NDArray[np.float32]
 Callback = TypeVar("Callback", bound=Callable[["Simulator"], object])
@@ -68,6 +69,7 @@ class Simulator:
         self._objects = {fields["name"]: fields for fields in self._core.objects()}
         self._hands: list[Hand] = []
         self._forced: set[int] = set()  # indices of objects
+        self._attached = 0  # attachments of programs
         self._step_callbacks: list[Callable[[Simulator], object]] = []
         self._frame_callbacks: list[Callable[[Simulator], object]] = []
 
@@ -155,7 +157,7 @@ class Simulator:
         raise ValueError("this is no callback of the simulator")
 
     def reset(self) -> None:
-        """Returns to the start: hands, forces and pins of programs are gone. Allowed after Diverged."""
+        """Returns to the start: hands, forces, pins and attachments of programs are gone. Allowed after Diverged."""
         self._core.reset()
         self._forget_changes()
 
@@ -258,6 +260,50 @@ class Simulator:
         materials = [changed if material is found[0] else material for material in self.scene.materials]
         self.scene = dataclasses.replace(self.scene, materials=materials)
 
+    # Attachments
+
+    def attach(
+        self,
+        object: Union[str, Object, Attachment],
+        to: Union[str, Object, Collider] = "",
+        where: Union[Region, AttachedPoint, AttachedLine, None] = None,
+        **fields: Any,
+    ) -> int:
+        """Attaches an object from now on, as `Scene.add_attachment` does at the start. `reset` removes it, and checkpoints do not have it.
+
+        object: its name, or itself; or a whole `gelatin.Attachment`.
+        to, where: regions, points and lines are in the world at present.
+
+        Returns its place in `attachments`. Raises InvalidInput for an object that there is not, or if no node is there.
+        """
+        if not isinstance(object, Attachment):
+            attachment = attachment_of(object, to, where, **fields)
+        elif to == "" and where is None and not fields:
+            attachment = object
+        else:
+            raise InvalidInput("object: a gelatin.Attachment says all of it: no other argument is allowed")
+        place = self._core.attach(attachment)
+        self.scene = dataclasses.replace(self.scene, attachments=[*self.scene.attachments, attachment])
+        self._attached += 1
+        return place
+
+    def detach(self, attachment: Union[int, str]) -> None:
+        """Breaks an attachment, given by its place in `attachments` or by its name, until `reset`. Raises InvalidInput if there is none."""
+        if isinstance(attachment, str):
+            names = [status["name"] for status in self.attachments()]
+            if attachment not in names:
+                known = f"there is {', '.join(names)}" if names else "there is none"
+                raise InvalidInput(f"attachment = {attachment!r}: is not the name of an attachment; {known}")
+            attachment = names.index(attachment)
+        self._core.detach(whole_number("attachment", attachment))
+
+    def attachments(self) -> list[dict[str, Any]]:
+        """For each attachment, in the order of the scene's: `name`, `force` on its object [N] and `is_broken`.
+
+        The force is that at the end of the last step; of a broken one, what broke it. A recording has none.
+        """
+        return self._core.attachments()
+
     # Pictures
 
     def render(
@@ -317,6 +363,9 @@ class Simulator:
         for body in self._forced:
             self._core.set_forces(body, np.zeros((0, 3), np.float32))
         self._forced.clear()
+        if self._attached:
+            self.scene = dataclasses.replace(self.scene, attachments=self.scene.attachments[: -self._attached])
+            self._attached = 0
 
     def _call(self, callbacks: list[Callable[[Simulator], object]]) -> None:
         for callback in list(callbacks):

@@ -88,6 +88,21 @@ void bind_changes(nb::class_<PythonSimulator>& simulator) {
             },
             nb::arg("material"))
         .def(
+            "attach",
+            [](PythonSimulator& self, nb::handle source) {
+                const AttachmentDescription attachment = attachment_of(source);
+                std::size_t place = 0;
+                use_released(self, [&](Simulator& s) { place = s.attach(attachment); });
+                return place;
+            },
+            nb::arg("attachment"))
+        .def(
+            "detach",
+            [](PythonSimulator& self, std::size_t attachment) {
+                self.use([&](Simulator& s) { s.detach(attachment); });
+            },
+            nb::arg("attachment"))
+        .def(
             "set_pulls",
             [](PythonSimulator& self, const std::vector<PullValues>& values) {
                 std::vector<Pull> pulls;

@@ -133,6 +133,12 @@ void bind_simulator(nb::module_& module) {
                  return Numbers(model.masses.data(), {model.body_node_count()}, capsule_of(owner));
              }))
         .def("objects", &objects_of, nb::sig("def objects(self) -> list[dict[str, typing.Any]]"))
+        .def(
+            "attachments",
+            [](PythonSimulator& self) {
+                return self.use([](const Simulator& s) { return to_list(s.attachments()); });
+            },
+            nb::sig("def attachments(self) -> list[dict[str, typing.Any]]"))
         .def("statistics", &statistics_of, nb::sig("def statistics(self) -> dict[str, typing.Any]"))
         .def(
             "save_checkpoint",

@@ -40,6 +40,10 @@ CameraDescription camera_of(nb::handle source) {
     return read_as<CameraDescription>(source, "camera");
 }
 
+AttachmentDescription attachment_of(nb::handle source) {
+    return read_as<AttachmentDescription>(source, "attachment");
+}
+
 nb::object python_scene(const Scene& scene) {
     return to_python(scene);
 }

@@ -34,6 +34,18 @@ nb::dict to_dict(const HoldingForce& force, const RunReport& names) {
 
 }  // namespace
 
+nb::list to_list(const std::vector<AttachmentStatus>& attachments) {
+    nb::list list;
+    for (const AttachmentStatus& attachment : attachments) {
+        nb::dict all;
+        all["name"] = attachment.name;
+        all["force"] = vector_of(attachment.force);
+        all["is_broken"] = attachment.is_broken;
+        list.append(all);
+    }
+    return list;
+}
+
 nb::dict to_dict(const FrameStatistics& frame, const Simulator& simulator) {
     const RunReport names = describe_run(simulator);
     nb::dict all;
@@ -63,6 +75,7 @@ nb::dict to_dict(const FrameStatistics& frame, const Simulator& simulator) {
     for (const HoldingForce& force : frame.holding_forces) holds.append(to_dict(force, names));
     all["contact_forces"] = contacts;
     all["holding_forces"] = holds;
+    all["attachments"] = to_list(frame.attachments);
     return all;
 }
 

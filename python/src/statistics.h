@@ -2,9 +2,14 @@
 
 #include <nanobind/nanobind.h>
 
+#include <vector>
+
 #include "gelatin/simulator.h"
 
 namespace gelatin::python {
+
+/// A list of dicts.
+nanobind::list to_list(const std::vector<AttachmentStatus>& attachments);
 
 /// The measurements of a frame as a dict, with the keys of `gelatin run --stats` and names instead of
 /// indices.

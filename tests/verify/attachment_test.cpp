@@ -369,6 +369,30 @@ TEST(Attachments, NothingCrossesWhereTheyYield) {
     }
 }
 
+// A stiff double pendulum rotates about its joints until the blocks' corners meet, and gains nothing there.
+TEST(Attachments, PartsOfAJointPressEachOther) {
+    Scene scene = scene_of(jelly(1e7));
+    scene.objects = {box("a", {0.28, 0.2, 0.24}, {0.0, 0.0, 0.0}),
+                     box("b", {0.28, 0.2, 0.24}, {0.34, 0.0, 0.0})};
+    for (ObjectDescription& object : scene.objects) {
+        object.shape = BoxShape{{0.28, 0.2, 0.24}, {3, 2, 2}};
+        object.mesher = {};
+    }
+    scene.attachments = {{.object = "a", .to = "b", .where = AttachedPoint{{0.17, 0.0, 0.0}}},
+                         {.object = "a", .where = AttachedPoint{{-0.17, 0.0, 0.0}}}};
+    AttachedRun run(scene);
+    const double start = run.energy();
+    const double scale = kGravity * (run.mass(0) + run.mass(1)) * 0.34;
+    bool press = false;
+    for (int k = 0; k < 300; ++k) {
+        run.simulator().advance_frame();
+        ASSERT_LT(run.energy(), start + 0.01 * scale) << k;
+        ASSERT_EQ(run.overlaps(), 0u) << k;
+        press = press || !run.simulator().contact_forces().empty();
+    }
+    EXPECT_TRUE(press);
+}
+
 // Attached bodies come to rest together, sleep, and are woken together.
 TEST(Attachments, SleepAndWakeTogether) {
     Scene scene = scene_of(jelly(1e5, 0.1));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
@@ -238,6 +239,59 @@ TEST(ContactScenesHeavy, DropsRainOnEachOther) {
     ContactScene scene("rain.toml", Backend::cpu, {"object.drop.copies.counts=[3, 4, 3]"});
     scene.advance_to(300);
     EXPECT_LT(scene.fastest(), 3.0);
+}
+
+// Objects: the beam, three ropes, three balls, the long rope, the heavy ball. One ball is torn off its rope.
+TEST(ContactScenesHeavy, BallsHangOnRopes) {
+    ContactScene scene("ropes.toml");
+    for (int frame = 5; frame <= 100; frame += 5) {
+        scene.advance_to(frame);
+        // 1.2 m of rope and ball below the joint, and what the rope yields.
+        EXPECT_NEAR(glm::distance(scene.center(8), {-0.85, 2.22, 0.0}), 1.22, 0.1) << frame;
+    }
+    EXPECT_GT(scene.center(6).x, 0.7);  // from 0.4: it was hit
+    EXPECT_FALSE(scene.statistics().attachments[7].is_broken);
+    scene.advance_to(300);
+    const std::vector<AttachmentStatus> attachments = scene.statistics().attachments;
+    for (std::size_t a = 0; a < attachments.size(); ++a) EXPECT_EQ(attachments[a].is_broken, a == 7) << a;
+    EXPECT_LT(scene.center(6).y, 0.5);
+    for (const std::size_t ball : {4, 5}) EXPECT_GT(scene.center(ball).y, 1.0) << ball;
+}
+
+// Objects: two posts, two doors, a ball that flies towards -z. Each door's centre is 0.41 m from its hinge.
+TEST(ContactScenesHeavy, DoorsSwingOnHinges) {
+    ContactScene scene("hinge.toml");
+    double least = 0.0, most = 0.0;
+    for (int frame = 5; frame <= 360; frame += 5) {
+        scene.advance_to(frame);
+        for (const auto& [door, hinge] : {std::pair(2, -0.83), std::pair(3, 0.83)}) {
+            const glm::dvec3 center = scene.center(static_cast<std::size_t>(door));
+            EXPECT_NEAR(std::hypot(center.x - hinge, center.z), 0.41, 0.01) << door << " in " << frame;
+            EXPECT_NEAR(center.y, 1.0, 0.01) << door << " in " << frame;
+            least = std::min(least, center.z);
+            most = std::max(most, center.z);
+        }
+        if (frame == 60) {
+            EXPECT_LT(scene.center(4).z, -1.0);  // the ball is through
+        }
+    }
+    EXPECT_LT(least, -0.35);
+    EXPECT_GT(most, 0.35);
+}
+
+// Blocks 0.34 m apart, which a table 1.3 m high does not hold.
+TEST(ContactScenesHeavy, ATrainFallsOffATable) {
+    ContactScene scene("train.toml");
+    for (int frame = 5; frame <= 300; frame += 5) {
+        scene.advance_to(frame);
+        for (std::size_t block = 0; block < 8; ++block)
+            EXPECT_LT(glm::distance(scene.center(block), scene.center(block + 1)), 0.4) << frame;
+        if (frame == 60) {
+            EXPECT_GT(scene.center(0).y, 1.3);
+        }
+    }
+    for (std::size_t block = 0; block < 9; ++block) EXPECT_LT(scene.center(block).y, 0.2) << block;
+    EXPECT_LT(scene.fastest(), 1e-3);
 }
 
 // What a user does with it: a stack is hit, and a cube thrown into a ring.

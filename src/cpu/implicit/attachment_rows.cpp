@@ -47,26 +47,29 @@ std::vector<AttachmentForce> AttachmentRows<Real>::forces() const {
 }
 
 template <class Real>
-bool AttachmentRows<Real>::is_tied(std::uint32_t node, std::uint32_t to) const {
-    if (has_ties_[node] == 0) return false;
+const Attachment* AttachmentRows<Real>::find_tie(std::uint32_t node, std::uint32_t to) const {
+    if (has_ties_[node] == 0) return nullptr;
     auto at = std::lower_bound(tied_.begin(), tied_.end(), node,
                                [](const Tied& tied, std::uint32_t n) { return tied.node < n; });
     for (; at != tied_.end() && at->node == node; ++at)
-        if (at->to == to && !is_broken(at->attachment)) return true;
-    return false;
+        if (at->to == to && !is_broken(at->attachment)) return &attachments_[at->attachment];
+    return nullptr;
 }
 
 template <class Real>
-bool AttachmentRows<Real>::are_tied(const ContactPair& pair) const {
-    if (attachments_.empty()) return false;
-    for (std::size_t k = 0; k < 4; ++k)
-        if (is_tied(pair.nodes[k], pair.side_of(k) == 0 ? pair.other : pair.object)) return true;
-    return false;
+const std::vector<glm::vec4>* AttachmentRows<Real>::positions_when_tied(const ContactPair& pair) const {
+    if (attachments_.empty()) return nullptr;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t to = pair.side_of(k) == 0 ? pair.other : pair.object;
+        if (const Attachment* tie = find_tie(pair.nodes[k], to)) return tie->positions.get();
+    }
+    return nullptr;
 }
 
 template <class Real>
 bool AttachmentRows<Real>::is_tied_to_plane(std::uint32_t node, std::uint32_t plane) const {
-    return !attachments_.empty() && is_tied(node, static_cast<std::uint32_t>(model_->objects.size()) + plane);
+    return !attachments_.empty() &&
+           find_tie(node, static_cast<std::uint32_t>(model_->objects.size()) + plane) != nullptr;
 }
 
 template <class Real>

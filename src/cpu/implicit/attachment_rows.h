@@ -26,8 +26,9 @@ public:
     std::vector<AttachmentForce> forces() const;
     void archive(Archive& archive) { archive.array(forces_); }
 
-    /// Whether two sides are tied together at one of these nodes, so that they do not press each other.
-    bool are_tied(const ContactPair& pair) const;
+    /// If two sides are tied together at one of these nodes, where all nodes were when that was done [m];
+    /// else null.
+    const std::vector<glm::vec4>* positions_when_tied(const ContactPair& pair) const;
     bool is_tied_to_plane(std::uint32_t node, std::uint32_t plane) const;
     /// Of each body the least one that it is attached to, by others or not.
     std::vector<std::uint32_t> groups() const;
@@ -51,7 +52,7 @@ private:
         std::uint32_t node, to, attachment;
     };
 
-    bool is_tied(std::uint32_t node, std::uint32_t to) const;
+    const Attachment* find_tie(std::uint32_t node, std::uint32_t to) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<Attachment> attachments_;

@@ -67,7 +67,7 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
     const FeasibleRegion<Real> region(*model_, *surface_, start.positions);
     for (const NearPair<Real>& near : pairs) {
         const ContactPair& pair = near.pair;
-        if (!(near.gap > Real(0)) || attachments.are_tied(pair)) continue;
+        if (!(near.gap > Real(0))) continue;
         const Vec3<Real> apart = near.gap * near.normal;
         Real weight = region.weight(pair, apart, near.weights);
         if (!pair.is_edges() && !(std::min({near.weights.y, near.weights.z, near.weights.w}) > Real(0)))
@@ -102,9 +102,13 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         row.normal = near.normal;
         row.gap = near.gap;
         row.reach = static_cast<Real>(pair.reach);
-        // Parts of a body that are near each other at rest do not press there.
-        if (pair.is_own())
-            row.reach = std::min(row.reach, static_cast<Real>(tuning::kOfRestGap) * rest_gap(pair));
+        // Parts of a body that are near each other at rest do not press there, nor bodies that are attached.
+        const std::vector<glm::vec4>* at_rest =
+            pair.is_own() ? &model_->positions : attachments.positions_when_tied(pair);
+        if (at_rest != nullptr) {
+            row.reach = std::min(row.reach, static_cast<Real>(tuning::kOfRestGap) * gap_in(*at_rest, pair));
+            if (!(row.reach > Real(0))) continue;  // they overlapped
+        }
         row.friction = static_cast<Real>(touch.friction);
         row.key = pair.is_edges() ? std::uint64_t(1) << 63 | std::uint64_t(pair.first) << 31 | pair.second
                                   : std::uint64_t(pair.first) << 31 | pair.other;
@@ -141,9 +145,9 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
 }
 
 template <class Real>
-Real ContactRows<Real>::rest_gap(const ContactPair& pair) const {
+Real ContactRows<Real>::gap_in(const std::vector<glm::vec4>& positions, const ContactPair& pair) const {
     MeasuredPairs<float> measured;
-    measure_pairs({&pair, 1}, model_->positions, measured);
+    measure_pairs({&pair, 1}, positions, measured);
     return static_cast<Real>(measured.gaps[0]);
 }
 

@@ -32,7 +32,7 @@ public:
 
     ContactRows(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface);
 
-    /// @param pairs that were found for the step @param attachments what these tie together does not press
+    /// @param pairs that were found for the step @param attachments near their ties bodies press later
     /// @param rows output
     void make(const Start& start, std::span<const NearPair<Real>> pairs,
               const AttachmentRows<Real>& attachments, std::vector<ContactRow<Real>>& rows);
@@ -55,7 +55,7 @@ private:
 
     void add(const Start& start, ContactRow<Real> row, Real weight, Real first, Real second,
              std::vector<ContactRow<Real>>& rows);
-    Real rest_gap(const ContactPair& pair) const;
+    Real gap_in(const std::vector<glm::vec4>& positions, const ContactPair& pair) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;

@@ -312,14 +312,20 @@ std::string name_of_attachment(const AttachmentDescription& description, std::si
 
 Attachment make_attachment(const AttachmentDescription& description, std::size_t index, const Scene& scene,
                            const Model& model, std::span<const glm::vec4> positions) {
-    return AttachmentMaker(description, index, scene, model, positions).make();
+    Attachment made = AttachmentMaker(description, index, scene, model, positions).make();
+    made.positions = std::make_shared<const std::vector<glm::vec4>>(positions.begin(), positions.end());
+    return made;
 }
 
 std::vector<Attachment> make_attachments(const Scene& scene, const Model& model,
                                          std::span<const glm::vec4> positions) {
     std::vector<Attachment> attachments;
-    for (std::size_t a = 0; a < scene.attachments.size(); ++a)
-        attachments.push_back(make_attachment(scene.attachments[a], a, scene, model, positions));
+    for (std::size_t a = 0; a < scene.attachments.size(); ++a) {
+        attachments.push_back(AttachmentMaker(scene.attachments[a], a, scene, model, positions).make());
+        attachments[a].positions =
+            a > 0 ? attachments[0].positions
+                  : std::make_shared<const std::vector<glm::vec4>>(positions.begin(), positions.end());
+    }
     return attachments;
 }
 

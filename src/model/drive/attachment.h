@@ -3,7 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,8 @@ struct Attachment {
     float break_force = std::numeric_limits<float>::infinity();  ///< [N]
     bool is_broken = false;                                      ///< from now on
     std::vector<Tie> ties;                                       ///< at least one
+    /// Of all nodes when it was made [m].
+    std::shared_ptr<const std::vector<glm::vec4>> positions;
 };
 
 /// What an attachment exerts when a step has ended.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "cpu/implicit/attachment_rows.h"
 #include "support/contact_scenes.h"
 
 namespace gelatin {
@@ -29,7 +30,8 @@ protected:
         for (glm::dvec4& p : positions) p.y = p.y > 0.05 ? 0.3 : p.x < 0.15 ? 0.0001 : height;
         std::vector<cpu::ContactRow<double>> rows;
         const std::vector<double> slacks(1, 1e-3);
-        rows_of_->make({positions, expected_, compliances_, slacks, kStep, kStep}, {}, rows);
+        rows_of_->make({positions, expected_, compliances_, slacks, kStep, kStep}, {},
+                       cpu::AttachmentRows<double>(model_), rows);
         rows_of_->note(rows, expected_, std::vector<std::uint8_t>(1));
         rows_of_->remember();
         return rows;
@@ -86,7 +88,8 @@ TEST(ContactRows, HeldNodesMakeNoneStiffer) {
     const auto stiffest = [&](const std::vector<double>& compliances) {
         std::vector<cpu::ContactRow<double>> rows;
         cpu::ContactRows<double>(model, surface)
-            .make({positions, expected, compliances, slacks, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(), rows);
+            .make({positions, expected, compliances, slacks, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(),
+                  cpu::AttachmentRows<double>(model), rows);
         double most = 0.0;
         for (const auto& row : rows) most = std::max(most, row.stiffness);
         return most;
@@ -103,6 +106,53 @@ TEST(ContactRows, HeldNodesMakeNoneStiffer) {
     }
     EXPECT_GT(all_free, 1e6);
     EXPECT_GT(touching, 3u);
+}
+
+// Near a tie the reach is at most half of the gap when it was made; elsewhere, and when it is broken, as
+// ever.
+TEST(ContactRowsOfAttachmentsTest, BodiesPressNearTheirTiesFromHalfOfTheirGapOn) {
+    constexpr double kGap = 0.004;
+    const auto model = test::make_blocks({test::Block{}, test::Block{.place = {0.03, 0.3 + kGap, 0.02}}});
+    const auto surface = std::make_shared<ContactSurface>(make_contact_surface(*model, {}));
+    const double reach = surface->reach(0, 1);
+    ASSERT_GT(reach, kGap);
+    const std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end());
+    const std::vector<glm::dvec3> expected(positions.size(), glm::dvec3(0.0));
+    const std::vector<double> slacks(model->objects.size(), 1e-3), compliances(positions.size(), 1e-6);
+    cpu::FindPairs<double> pairs(model, surface, false);
+    pairs.begin({positions, positions, slacks});
+    pairs.run({positions, positions, slacks});
+    Attachment attachment;
+    attachment.object = 1;
+    attachment.other = 0;
+    attachment.positions = std::make_shared<const std::vector<glm::vec4>>(model->positions);
+    const Range& nodes = model->objects[1].nodes;
+    const auto lowest = std::min_element(positions.begin() + nodes.first, positions.end(),
+                                         [](const auto& a, const auto& b) { return a.y < b.y; });
+    attachment.ties.resize(1);
+    attachment.ties[0].nodes[0] = static_cast<std::uint32_t>(lowest - positions.begin());
+    attachment.ties[0].weights[0] = 1.0f;
+    attachment.ties[0].count = 1;
+    for (const bool is_broken : {false, true}) {
+        attachment.is_broken = is_broken;
+        cpu::AttachmentRows<double> attachments(model);
+        attachments.set({attachment});
+        std::vector<cpu::ContactRow<double>> rows;
+        cpu::ContactRows<double>(model, surface)
+            .make({positions, expected, compliances, slacks, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(),
+                  attachments, rows);
+        std::size_t tied = 0;
+        for (const auto& row : rows) {
+            const auto end = row.nodes.begin() + row.count;
+            if (is_broken || std::find(row.nodes.begin(), end, attachment.ties[0].nodes[0]) == end) {
+                EXPECT_GT(row.reach, 0.9 * row.gap);
+            } else {
+                EXPECT_NEAR(row.reach, 0.5 * row.gap, 1e-6);
+                ++tied;
+            }
+        }
+        EXPECT_EQ(tied > 0, !is_broken);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+"""What objects are attached to: from the start or from a program, how hard it pulls, and that it breaks."""
+
+import numpy as np
+import pytest
+
+import gelatin
+
+LOWER = ("lower", "upper")
+
+
+def two_boxes(attach=True, **fields):
+    """One is held at its top, the other one glued below it: at rest the glue carries the lower one."""
+    scene = gelatin.Scene()
+    scene.add_material("rubber", youngs_modulus=2e5, density=1000, damping=0.02)
+    shape = gelatin.Box((0.4, 0.4, 0.4), segments=(2, 2, 2))
+    scene.add("upper", shape, position=(0, 2, 0), pins=[gelatin.HalfSpaceRegion((0, -1, 0), -2.19)])
+    scene.add("lower", shape, position=(0, 1.598, 0))
+    if attach:
+        scene.add_attachment(*LOWER, **fields)
+    return scene
+
+
+def simulate(scene):
+    return gelatin.Simulator(scene, backend="cpu")
+
+
+def test_glue_carries_what_hangs_on_it():
+    sim = simulate(two_boxes(name="glue"))
+    sim.advance(240)
+    weight = 9.81 * sim["lower"].mass
+    (glue,) = sim.attachments()
+    assert glue["name"] == "glue" and not glue["is_broken"]
+    assert glue["force"] == pytest.approx((0, weight, 0), abs=0.02 * weight)
+    assert sim.statistics()["attachments"] == sim.attachments()
+    assert simulate(two_boxes(attach=False)).attachments() == []
+
+
+def test_it_breaks():
+    weight = 9.81 * simulate(two_boxes())["lower"].mass
+    sim = simulate(two_boxes(break_force=0.5 * weight))
+    sim.advance(60)
+    (glue,) = sim.attachments()
+    assert glue["name"] == "attachment 1" and glue["is_broken"]
+    assert np.linalg.norm(glue["force"]) > 0.5 * weight
+    assert sim["lower"].center[1] < 0
+    sim.reset()
+    assert not sim.attachments()[0]["is_broken"]
+
+
+@pytest.mark.parametrize("which", [0, "glue"])
+def test_what_is_detached_falls(which):
+    sim = simulate(two_boxes(name="glue"))
+    sim.advance(300)
+    rest, time = sim["lower"].center[1], sim.time
+    sim.detach(which)
+    sim.advance(30)
+    assert sim.attachments()[0]["is_broken"]
+    assert rest - sim["lower"].center[1] == pytest.approx(0.5 * 9.81 * (sim.time - time) ** 2, rel=0.05)
+
+
+def test_programs_attach():
+    scene = two_boxes(attach=False)
+    sim = simulate(scene)
+    assert sim.attach(scene.objects[1], scene.objects[0], name="glue") == 0
+    # Where it is then: a joint in space.
+    assert sim.attach(gelatin.Attachment("lower", where=gelatin.AttachedPoint((0, 1.5, 0)), name="joint")) == 1
+    assert [attachment.name for attachment in sim.scene.attachments] == ["glue", "joint"] and not scene.attachments
+    sim.advance(60)
+    sim.detach("joint")
+    sim.advance(240)
+    weight = 9.81 * sim["lower"].mass
+    assert sim.attachments()[0]["force"][1] == pytest.approx(weight, rel=0.02)
+    sim.reset()
+    assert sim.attachments() == [] and sim.scene.attachments == []
+    sim.advance(60)
+    assert sim["lower"].center[1] < 0
+
+
+def test_what_falls_is_caught_where_it_is():
+    sim = simulate(two_boxes(attach=False))
+    sim.advance(20)
+    caught = sim["lower"].center
+    sim.attach("lower", where=gelatin.SphereRegion(tuple(caught), 0.25))
+    sim.advance(240)
+    np.testing.assert_allclose(sim["lower"].center, caught, atol=0.02)
+
+
+def test_opengl_steps_them_too(needs_gl):
+    scenes = two_boxes(), two_boxes(attach=False)
+    sims = [gelatin.Simulator(scene, backend="gl") for scene in scenes]
+    sims[1].attach(*LOWER)
+    for sim in sims:
+        sim.advance(120)
+        weight = 9.81 * sim["lower"].mass
+        assert sim.attachments()[0]["force"][1] == pytest.approx(weight, rel=0.02)
+
+
+def test_what_is_wrong_is_named():
+    sim = simulate(two_boxes(name="glue"))
+    joint = gelatin.Attachment("lower", where=gelatin.AttachedPoint((0, 1.5, 0)))
+    for wrong, error, message in (
+        (lambda: sim.attach("lowest", "upper"), gelatin.InvalidInput, "attachment[1].object"),
+        (lambda: sim.attach("lower"), gelatin.InvalidInput, "attachment[1]"),
+        (lambda: sim.attach(*LOWER, gelatin.SphereRegion((5, 0, 0), 0.1)), gelatin.InvalidInput, "attachment 2.region"),
+        (lambda: sim.attach(*LOWER, compliance=-1), gelatin.InvalidInput, "attachment[1].compliance"),
+        (lambda: sim.attach("lower", 3), TypeError, "attachment.to = 3"),
+        (lambda: sim.attach(joint, "upper"), gelatin.InvalidInput, "object: a gelatin.Attachment says all of it"),
+        (lambda: sim.detach(1), gelatin.InvalidInput, "there is no attachment 1"),
+        (lambda: sim.detach(-1), gelatin.InvalidInput, "attachment = -1: must be 0 or more"),
+        (lambda: sim.detach(0.5), TypeError, "attachment = 0.5: must be an integer"),
+        (lambda: sim.detach("glu"), gelatin.InvalidInput, "attachment = 'glu': is not the name of an attachment; there is glue"),
+        (lambda: simulate(two_boxes(attach=False)).detach("glue"), gelatin.InvalidInput, "there is none"),
+    ):
+        with pytest.raises(error) as caught:
+            wrong()
+        assert message in str(caught.value)
+    assert len(sim.attachments()) == len(sim.scene.attachments) == 1
