@@ -129,7 +129,7 @@ public:
     /// Forces that act on nodes from now on [N], shape [nodes], or empty.
     virtual void set_forces(std::span<const glm::vec3> forces) = 0;
     /// In place of all that there were. @pre none, but for a solver of implicit steps on the CPU
-    virtual void set_attachments([[maybe_unused]] std::vector<Attachment> attachments) {
+    virtual void set_attachments([[maybe_unused]] const std::vector<Attachment>& attachments) {
         assert(attachments.empty());
     }
 

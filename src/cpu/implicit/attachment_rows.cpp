@@ -13,8 +13,8 @@ template <class Real>
 AttachmentRows<Real>::AttachmentRows(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
 
 template <class Real>
-void AttachmentRows<Real>::set(std::vector<Attachment> attachments) {
-    attachments_ = std::move(attachments);
+void AttachmentRows<Real>::set(const std::vector<Attachment>& attachments) {
+    attachments_ = attachments;
     forces_.resize(attachments_.size());
     for (std::size_t a = 0; a < attachments_.size(); ++a)
         forces_[a].is_broken = attachments_[a].is_broken ? 1 : 0;

@@ -20,7 +20,7 @@ public:
     explicit AttachmentRows(std::shared_ptr<const Model> model);
 
     /// In place of all that there were. What the first ones exert is known, if it was.
-    void set(std::vector<Attachment> attachments);
+    void set(const std::vector<Attachment>& attachments);
     const std::vector<Attachment>& attachments() const { return attachments_; }
     bool is_broken(std::size_t attachment) const { return forces_[attachment].is_broken != 0; }
     std::vector<AttachmentForce> forces() const;

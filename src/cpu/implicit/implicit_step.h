@@ -71,7 +71,7 @@ public:
 
     /// What presses objects at the end of the last step.
     ContactForces contact_forces() const;
-    void set_attachments(std::vector<Attachment> attachments) { attachments_.set(std::move(attachments)); }
+    void set_attachments(const std::vector<Attachment>& attachments) { attachments_.set(attachments); }
     std::vector<AttachmentForce> attachment_forces() const { return attachments_.forces(); }
     /// Of elements, contacts and hands on held nodes in the last step.
     /// @param forces output [N], shape [nodes]; empty before it. Those of bodies asleep stay.

@@ -110,8 +110,8 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
 }
 
 template <class Real>
-void SystemSolver<Real>::set_attachments(std::vector<Attachment> attachments) {
-    step_.set_attachments(std::move(attachments));
+void SystemSolver<Real>::set_attachments(const std::vector<Attachment>& attachments) {
+    step_.set_attachments(attachments);
     if (rest_watch_) rest_watch_->restart();
 }
 

@@ -21,7 +21,7 @@ public:
                           const ImplicitSettings& settings = {});
 
     ContactForces contact_forces() override { return step_.contact_forces(); }
-    void set_attachments(std::vector<Attachment> attachments) override;
+    void set_attachments(const std::vector<Attachment>& attachments) override;
     std::vector<AttachmentForce> attachment_forces() override { return step_.attachment_forces(); }
     /// What contacts and their friction hold [J].
     double contact_energy() const { return step_.contact_energy(); }
