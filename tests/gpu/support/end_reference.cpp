@@ -59,7 +59,7 @@ void EndReference::find_rows() {
     std::span<const cpu::NearPair<double>> near = pairs_.pairs();
     if (is_apart) near = {};
     rows.make({from.positions, expected_, compliances_, slacks_, h, scheme.last_step()}, near,
-              cpu::AttachmentRows<double>(model_), system.rows);
+              cpu::AttachmentRows<double>(model), system.rows);
     system.rows.insert(system.rows.end(), own_rows.begin(), own_rows.end());
 }
 

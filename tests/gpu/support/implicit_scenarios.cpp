@@ -184,12 +184,12 @@ SolveInput solve_input(const SolveCase& at) {
 }
 
 StepRow converted_row(const cpu::ContactRow<double>& row) {
-    const auto& [a, b, c, d] = row.nodes;
+    const auto& nodes = row.nodes;
     const auto& w = row.weights;
-    return {a,
-            b,
-            c,
-            d,
+    return {nodes[0],
+            nodes[1],
+            nodes[2],
+            nodes[3],
             glm::vec4(w[0], w[1], w[2], w[3]),
             glm::vec4(row.normal, row.gap),
             static_cast<float>(row.reach),

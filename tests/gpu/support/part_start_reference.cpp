@@ -83,7 +83,7 @@ public:
             if (is_found)
                 rows_of_.make({previous_.positions, predicted_, compliances_, slacks(), step,
                                static_cast<double>(case_.last_step)},
-                              near.pairs, system_.rows);
+                              near.pairs, cpu::AttachmentRows<double>(case_.model), system_.rows);
             clock.parts = paces_.count_parts(system_.rows);
             if (is_found && case_.divides && step >= 1.01 * size / clock.parts) {
                 step = size / clock.parts;
@@ -199,7 +199,7 @@ private:
             if (p % 5 == 0) near.erase(near.begin() + static_cast<std::ptrdiff_t>(p));
         rows_of_.make(
             {positions, predicted_, compliances_, slacks(), static_cast<double>(case_.last_step), 0.0}, near,
-            rows);
+            cpu::AttachmentRows<double>(case_.model), rows);
         Field moved;
         for (const cpu::Vec3<double>& d : random_field<double>(model_.node_count(), 8))
             moved.push_back(1e-3 * d);
