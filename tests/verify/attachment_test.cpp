@@ -319,6 +319,32 @@ TEST(Attachments, FollowCollidersAndAreCut) {
     EXPECT_THROW(run.simulator().detach(1), InvalidInput);
 }
 
+// To a plane, a collider that rests, and nothing but a place.
+TEST(Attachments, HangOnWhatNeverMoves) {
+    for (const char* to : {"ceiling", "plate", ""}) {
+        Scene scene = scene_of(jelly(1e5, 0.1));
+        scene.simulation.sleep = false;  // it would begin while forces still change by 3%
+        scene.objects = {box("cube", {0.2, 0.2, 0.2}, {0.0, -0.106, 0.0})};
+        ColliderDescription ceiling;
+        ceiling.name = to;
+        if (std::string_view(to) == "plate") {
+            ceiling.shape = BoxShape{{0.4, 0.2, 0.4}};
+            ceiling.position = {0.0, 0.1, 0.0};
+        } else {
+            ceiling.shape = PlaneCollider{{0.0, -1.0, 0.0}};
+        }
+        scene.colliders = {ceiling};
+        scene.attachments = {{.object = "cube", .to = to}};
+        if (std::string_view(to).empty()) scene.attachments[0].where = above(-0.01);
+        AttachedRun run(scene);
+        run.advance(5.0);
+        const double weight = run.mass(0) * kGravity;
+        EXPECT_GT(run.center(0).y, -0.13) << to;
+        EXPECT_LT(glm::distance(run.force(0), {0.0, weight, 0.0}), 0.01 * weight) << to;
+        EXPECT_EQ(run.overlaps(), 0u) << to;
+    }
+}
+
 TEST(Attachments, AreMadeWhileRunning) {
     Scene scene = scene_of(jelly(1e5, 0.05));
     scene.objects = {box("a", {0.2, 0.2, 0.2}, {0.0, 0.0, 0.0}),

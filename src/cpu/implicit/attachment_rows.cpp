@@ -102,7 +102,7 @@ void AttachmentRows<Real>::add(std::span<const Vec4<Real>> positions, std::span<
             row.other = attachment.object;
             row.gap = row.limit = std::numeric_limits<Real>::max();
             const Vec3<Real> origin =
-                attachment.other == kNoNode ? Vec3<Real>(tie.at) : Vec3<Real>(positions[tie.nodes[0]]);
+                attachment.is_in_space ? Vec3<Real>(tie.at) : Vec3<Real>(positions[tie.nodes[0]]);
             Vec3<Real> apart(0);
             Real yield = 0;
             for (std::uint32_t k = 0; k < tie.count; ++k) {
@@ -132,15 +132,10 @@ void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows,
 }
 
 template <class Real>
-bool AttachmentRows<Real>::break_overloaded() {
-    bool any = false;
-    for (std::size_t a = 0; a < attachments_.size(); ++a) {
-        if (is_broken(a) || glm::length(forces_[a].force) <= static_cast<double>(attachments_[a].break_force))
-            continue;
-        forces_[a].is_broken = 1;
-        any = true;
-    }
-    return any;
+void AttachmentRows<Real>::break_overloaded() {
+    for (std::size_t a = 0; a < attachments_.size(); ++a)
+        if (glm::length(forces_[a].force) > static_cast<double>(attachments_[a].break_force))
+            forces_[a].is_broken = 1;
 }
 
 template class AttachmentRows<float>;

@@ -39,8 +39,8 @@ public:
     /// What they exert at the end of a step. @param displacements of nodes [m]
     void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> displacements,
               std::span<const std::uint8_t> asleep);
-    /// Breaks those that exert more than they can. @return whether there are any
-    bool break_overloaded();
+    /// Breaks those that exert more than they can.
+    void break_overloaded();
 
 private:
     struct State {

@@ -284,6 +284,7 @@ private:
             for (std::size_t p = 0; p < ties.size(); ++p)
                 for (int k = 0; k < 4; ++k) add(ties[p], carried[p].nodes[k], -carried[p].weights[k]);
         } else {
+            made_.is_in_space = true;
             for (std::size_t p = 0; p < ties.size(); ++p) ties[p].at = glm::vec3(points[p]);
         }
         made_.ties = std::move(ties);

@@ -22,7 +22,7 @@ struct Tie {
     std::array<std::uint32_t, kMostNodes> nodes{};
     std::array<float, kMostNodes> weights{};
     std::uint32_t count = 0;  ///< of nodes
-    glm::vec3 at{0.0f};       ///< [m]; 0 where the other side has nodes
+    glm::vec3 at{0.0f};       ///< [m], in space; 0 where the other side has nodes
 };
 
 /// An attachment of a model's objects (AttachmentDescription).
@@ -31,6 +31,7 @@ struct Attachment {
     std::uint32_t object = 0;       ///< a body
     std::uint32_t other = kNoNode;  ///< another object; kNoNode: space, or a plane
     std::uint32_t plane = kNoNode;  ///< in Model::colliders
+    bool is_in_space = false;       ///< the other side has no nodes, as it never moves
     float compliance = 0.0f;        ///< [m/N]
     float break_force = std::numeric_limits<float>::infinity();  ///< [N]
     bool is_broken = false;                                      ///< from now on

@@ -77,7 +77,7 @@ void expect_kept(const Model& model, const Attachment& made) {
         }
         EXPECT_NEAR(of_own, 1.0, 1e-6);
         EXPECT_TRUE(of_other == 0.0 || std::abs(of_other + 1.0) < 1e-6);
-        EXPECT_EQ(of_other == 0.0, tie.at != glm::vec3(0.0f));
+        EXPECT_EQ(of_other == 0.0, made.is_in_space);
         EXPECT_LT(glm::distance(sum, glm::dvec3(tie.at)), 1e-6);
     }
 }
