@@ -20,7 +20,7 @@ TimeScheme<Real>::TimeScheme(std::shared_ptr<const Model> model)
       object_of_(objects_of_nodes(*model_)),
       schemes_(model_->objects.size()),
       tied_(model_->body_count()),
-      momenta_(model_->body_count()),
+      began_(model_->body_count()),
       rates_(model_->body_count()) {
     forget();
     for (const double time : wave_times(*model_)) wave_times_.push_back(static_cast<Real>(time));
@@ -77,8 +77,8 @@ void TimeScheme<Real>::go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real
 
 template <class Real>
 void TimeScheme<Real>::begin(const Nodes<Real>& previous) {
-    for_each_index(0, momenta_.size(), 1,
-                   [&](std::size_t o) { momenta_[o] = momenta(o, previous.positions, previous.velocities); });
+    for_each_index(0, began_.size(), 1,
+                   [&](std::size_t o) { began_[o] = moving(o, previous.positions, previous.velocities); });
 }
 
 // Accelerations are those that velocities have changed by, whatever did it.
@@ -91,11 +91,11 @@ void TimeScheme<Real>::end(const Nodes<Real>& previous, const Nodes<Real>& curre
             before = s.past * (Real(1) - s.gamma) * accelerations_[n];
         accelerations_[n] = (change / s.length - before) / s.gamma;
     });
-    for_each_index(0, momenta_.size(), 1, [&](std::size_t o) {
+    for_each_index(0, began_.size(), 1, [&](std::size_t o) {
         const Scheme s = of_momenta(o);
-        const Momenta now = momenta(o, current.positions, current.velocities), before = rates_[o];
+        const Momenta now = moving(o, current.positions, current.velocities).momenta, before = rates_[o];
         const auto rate = [&](glm::dvec3 Momenta::*part) {
-            return ((now.*part - momenta_[o].*part) / static_cast<double>(s.length) -
+            return ((now.*part - began_[o].momenta.*part) / static_cast<double>(s.length) -
                     static_cast<double>(s.past * (Real(1) - s.gamma)) * (before.*part)) /
                    static_cast<double>(s.gamma);
         };
@@ -152,9 +152,9 @@ double TimeScheme<Real>::mass_of(std::size_t node, const Vec4<Real>& position) c
 }
 
 template <class Real>
-typename TimeScheme<Real>::Momenta TimeScheme<Real>::momenta(std::size_t body,
-                                                             std::span<const Vec4<Real>> positions,
-                                                             std::span<const Vec4<Real>> velocities) const {
+typename TimeScheme<Real>::Moving TimeScheme<Real>::moving(std::size_t body,
+                                                           std::span<const Vec4<Real>> positions,
+                                                           std::span<const Vec4<Real>> velocities) const {
     const Range& nodes = model_->objects[body].nodes;
     const glm::dvec3 origin(positions[nodes.first]);
     glm::dvec3 middle(0.0), momentum(0.0), angular(0.0);
@@ -168,15 +168,15 @@ typename TimeScheme<Real>::Momenta TimeScheme<Real>::momenta(std::size_t body,
         angular += m * glm::cross(r, v);
     }
     middle /= mass;
-    return {momentum, angular - glm::cross(middle, momentum), origin + middle, mass};
+    return {{momentum, angular - glm::cross(middle, momentum)}, origin + middle, mass};
 }
 
 template <class Real>
-void TimeScheme<Real>::Momenta::add(const Momenta& more) {
+void TimeScheme<Real>::Moving::add(const Moving& more) {
     const glm::dvec3 middle = (mass * center + more.mass * more.center) / (mass + more.mass);
-    angular +=
-        glm::cross(center - middle, linear) + more.angular + glm::cross(more.center - middle, more.linear);
-    linear += more.linear;
+    momenta.angular += glm::cross(center - middle, momenta.linear) + more.momenta.angular +
+                       glm::cross(more.center - middle, more.momenta.linear);
+    momenta.linear += more.momenta.linear;
     center = middle;
     mass += more.mass;
 }
@@ -193,7 +193,7 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
             return;
         const glm::dvec3 origin(current.positions[model_->objects[g].nodes.first]);
         RigidSums sums;
-        Momenta had, has, before;
+        Moving had, has;
         const auto for_nodes = [&](const auto& visit) {
             for (const std::uint32_t o : bodies)
                 for (std::uint32_t n = model_->objects[o].nodes.first; n < model_->objects[o].nodes.end();
@@ -205,8 +205,8 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
                      glm::dvec3(forces[n]));
         });
         for (const std::uint32_t o : bodies) {
-            had.add(momenta_[o]);
-            has.add(momenta(o, current.positions, current.velocities));
+            had.add(began_[o]);
+            has.add(moving(o, current.positions, current.velocities));
         }
         const RigidInertia inertia(sums);
         const Scheme s = of_momenta(g);
@@ -214,10 +214,11 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
                    alpha = static_cast<double>(s.alpha), gamma = static_cast<double>(s.gamma);
         const glm::dvec3 weight = glm::dvec3(model_->gravity) / inertia.inverse_mass;
         const Momenta forces_now{sums.force + weight, sums.moment - glm::cross(inertia.center, sums.force)};
-        if (bodies.size() == 1) before = rates_[g];
+        const Momenta before = bodies.size() == 1 ? rates_[g] : Momenta();
         const auto lacking = [&](glm::dvec3 Momenta::*part) {
             const glm::dvec3 now = (forces_now.*part + past * alpha * before.*part) / (1.0 + alpha);
-            return had.*part + h * (past * (1.0 - gamma) * before.*part + gamma * now) - has.*part;
+            return had.momenta.*part + h * (past * (1.0 - gamma) * before.*part + gamma * now) -
+                   has.momenta.*part;
         };
         const Twist missing{inertia.inverse_mass * lacking(&Momenta::linear),
                             inertia.inverse_inertia * lacking(&Momenta::angular)};

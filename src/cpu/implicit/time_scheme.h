@@ -75,16 +75,20 @@ private:
     // [kg m/s]; about the centre of mass [kg m^2/s].
     struct Momenta {
         glm::dvec3 linear{0.0}, angular{0.0};
+    };
+    // Of one body or several.
+    struct Moving {
+        Momenta momenta;
         glm::dvec3 center{0.0};  // [m]
         double mass = 0.0;       // [kg]
 
-        void add(const Momenta& more);
+        void add(const Moving& more);
     };
     // By which a body's momenta go.
     Scheme of_momenta(std::size_t body) const;
     double mass_of(std::size_t node, const Vec4<Real>& position) const;
-    Momenta momenta(std::size_t body, std::span<const Vec4<Real>> positions,
-                    std::span<const Vec4<Real>> velocities) const;
+    Moving moving(std::size_t body, std::span<const Vec4<Real>> positions,
+                  std::span<const Vec4<Real>> velocities) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> object_of_;  // by node
@@ -93,7 +97,8 @@ private:
     Real last_step_ = 0;
     std::vector<Vec3<Real>> accelerations_;        // a_0 [m/s^2]
     std::vector<std::uint32_t> tied_, next_tied_;  // of each body the least one with which it has left some
-    std::vector<Momenta> momenta_, rates_;         // of bodies when the step began, and how fast they changed
+    std::vector<Moving> began_;                    // bodies when the step began
+    std::vector<Momenta> rates_;                   // how fast theirs changed
 };
 
 }  // namespace gelatin::cpu
