@@ -375,6 +375,16 @@ TEST(Attachments, WhatIsGluedDoesNotPress) {
     run.advance(1.0);
     EXPECT_LT(glm::length(run.force(1)), 5e-3);
     EXPECT_TRUE(run.simulator().contact_forces().empty());
+
+    scene.objects.resize(1);
+    ColliderDescription floor;
+    floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, 0.899};
+    floor.name = "floor";
+    scene.colliders = {floor};
+    scene.attachments = {{.object = "top", .to = "floor"}};
+    AttachedRun beside_plane(scene);
+    beside_plane.advance(1.0);
+    EXPECT_LT(glm::length(beside_plane.force(0)), 0.02);
 }
 
 // Pressed together by a weight, and with ties that yield: still nothing crosses.
@@ -454,6 +464,10 @@ TEST(Attachments, GoOnFromACheckpoint) {
 
     other.advance(0.5);
     for (const std::size_t object : {0u, 1u, 2u}) EXPECT_EQ(other.center(object), run.center(object));
+    // What the checkpoint does not know stays.
+    other.simulator().attach({.object = "bottom", .where = AttachedPoint{other.center(2)}});
+    other.simulator().load_checkpoint(file);
+    EXPECT_FALSE(other.is_broken(3));
     std::filesystem::remove(file);
 }
 

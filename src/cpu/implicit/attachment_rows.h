@@ -21,7 +21,7 @@ public:
 
     /// In place of all that there were. What the first ones exert is known, if it was.
     void set(const std::vector<Attachment>& attachments);
-    const std::vector<Attachment>& attachments() const { return attachments_; }
+    std::size_t count() const { return attachments_.size(); }
     bool is_broken(std::size_t attachment) const { return forces_[attachment].is_broken != 0; }
     std::vector<AttachmentForce> forces() const;
     void archive(Archive& archive) { archive.array(forces_); }

@@ -73,6 +73,7 @@ public:
     ContactForces contact_forces() const;
     void set_attachments(const std::vector<Attachment>& attachments) { attachments_.set(attachments); }
     std::vector<AttachmentForce> attachment_forces() const { return attachments_.forces(); }
+    std::size_t attachment_count() const { return attachments_.count(); }
     /// Of elements, contacts and hands on held nodes in the last step.
     /// @param forces output [N], shape [nodes]; empty before it. Those of bodies asleep stay.
     void find_forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous,

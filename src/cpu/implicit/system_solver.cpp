@@ -165,12 +165,12 @@ std::string SystemSolver<Real>::memory() {
     return bytes;
 }
 
-// Numbers of colliders, which are in it, mean the same only where there are as many.
+// Numbers of colliders and attachments, which are in it, mean the same only where there are as many.
 template <class Real>
 void SystemSolver<Real>::archive(Archive& archive) {
-    const std::array<std::size_t, 4> kind{sizeof(Real), model_->objects.size(), model_->colliders.size(),
-                                          rest_watch_ ? 1u : 0u};
-    std::array<std::size_t, 4> written = kind;
+    const std::array<std::size_t, 5> kind{sizeof(Real), model_->objects.size(), model_->colliders.size(),
+                                          rest_watch_ ? 1u : 0u, step_.attachment_count()};
+    std::array<std::size_t, 5> written = kind;
     archive.value(written);
     if (written != kind) return archive.fail();
     step_.archive(archive);

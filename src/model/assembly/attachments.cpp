@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <optional>
 #include <variant>
 
@@ -13,7 +13,9 @@
 #include "mesh/carry_surface.h"
 #include "mesh/lattice/face_tree.h"
 #include "model/assembly/collider_surface.h"
+#include "model/collision/surface_parts.h"
 #include "model/region.h"
+#include "model/scene/field_path.h"
 
 namespace gelatin {
 namespace {
@@ -22,27 +24,9 @@ constexpr double kNear = 0.5;            // glued without a region, in median ed
 constexpr double kFar = 4.0;             // from what carries a point, in median edges of that
 constexpr std::size_t kMostOnLine = 64;  // points
 
-// A point's place as a sum of an object's nodes.
-struct Carried {
-    glm::uvec4 nodes{0};
-    glm::dvec4 weights{0.0};
-};
-
 std::vector<glm::dvec3> positions_of(const ModelObject& object, std::span<const glm::vec4> positions) {
     const auto own = positions.subspan(object.nodes.first, object.nodes.count);
     return {own.begin(), own.end()};
-}
-
-double median_edge(const Model& model, const ModelObject& object, std::span<const glm::vec4> positions) {
-    const std::vector<glm::uvec2>& starts = model.surface_parts.face_starts;
-    std::vector<double> lengths;
-    for (std::uint32_t e = starts[object.faces.first].y; e < starts[object.faces.end()].y; ++e) {
-        const FaceEdge& edge = model.surface_parts.edges[e];
-        lengths.push_back(glm::distance(glm::dvec3(positions[edge.a]), glm::dvec3(positions[edge.b])));
-    }
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    return *middle;
 }
 
 // What carries points of an object: a body, or a collider's surface.
@@ -57,79 +41,78 @@ public:
             const Face& face = model.faces[f];
             mesh_.faces.push_back(glm::uvec3(face.a, face.b, face.c) - object_.nodes.first);
         }
-        edge_ = median_edge(model, object_, positions);
+        edge_ = median_edge(model, object, positions);
+        if (!is_body_) find_frame();
     }
 
     const std::string& name() const { return object_.name; }
     double edge() const { return edge_; }
     SurfaceMesh hull() const { return {mesh_.positions, mesh_.faces}; }
 
-    std::vector<Carried> carry(const std::vector<glm::dvec3>& points) const {
-        std::vector<Carried> carried;
-        if (!is_body_) {
-            for (const glm::dvec3& point : points) carried.push_back(carry_by_frame(point));
+    std::vector<CarriedVertex> carry(const std::vector<glm::dvec3>& points) const {
+        std::vector<CarriedVertex> carried;
+        if (is_body_) {
+            carried = carry_surface({points, {}}, mesh_).vertices;
         } else {
-            for (const CarriedVertex& vertex : carry_surface({points, {}}, mesh_).vertices)
-                carried.push_back({vertex.nodes, vertex.weights});
+            for (const glm::dvec3& point : points) carried.push_back(carry_by_frame(point));
         }
-        for (Carried& point : carried) point.nodes += object_.nodes.first;
+        for (CarriedVertex& vertex : carried) vertex.nodes += object_.nodes.first;
         return carried;
     }
 
     // Whether it can: a sheet, which is flat, says nothing of what is beside it.
-    bool has_frame() const { return is_body_ || frame_volume(frame()) > 0.0; }
+    bool can_carry() const {
+        const glm::dmat3 edges = frame_edges();
+        const double size = glm::length(edges[0]);
+        return is_body_ || std::abs(glm::determinant(edges)) > 1e-3 * size * size * size;
+    }
 
 private:
     // Four nodes as far apart as possible.
-    glm::uvec4 frame() const {
-        glm::uvec4 nodes(0);
+    void find_frame() {
         const auto farthest = [&](const auto& measure) {
-            std::uint32_t best = 0;
-            double most = -1.0;
-            for (std::uint32_t n = 0; n < mesh_.positions.size(); ++n)
-                if (const double value = measure(mesh_.positions[n]); value > most) {
-                    most = value;
-                    best = n;
-                }
-            return best;
+            const auto less = [&](const glm::dvec3& a, const glm::dvec3& b) {
+                return measure(a) < measure(b);
+            };
+            const auto& places = mesh_.positions;
+            return static_cast<std::uint32_t>(std::max_element(places.begin(), places.end(), less) -
+                                              places.begin());
         };
-        const auto at = [&](int k) { return mesh_.positions[nodes[k]]; };
-        nodes.x = farthest([&](const glm::dvec3& p) { return glm::distance(p, mesh_.positions[0]); });
-        nodes.y = farthest([&](const glm::dvec3& p) { return glm::distance(p, at(0)); });
-        nodes.z =
+        const auto at = [&](int k) { return mesh_.positions[frame_[k]]; };
+        frame_.x = farthest([&](const glm::dvec3& p) { return glm::distance(p, mesh_.positions[0]); });
+        frame_.y = farthest([&](const glm::dvec3& p) { return glm::distance(p, at(0)); });
+        frame_.z =
             farthest([&](const glm::dvec3& p) { return glm::length(glm::cross(at(1) - at(0), p - at(0))); });
         const glm::dvec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
-        nodes.w = farthest([&](const glm::dvec3& p) { return std::abs(glm::dot(normal, p - at(0))); });
-        return nodes;
+        frame_.w = farthest([&](const glm::dvec3& p) { return std::abs(glm::dot(normal, p - at(0))); });
     }
 
-    // 0 where they are in a plane but for rounding.
-    double frame_volume(const glm::uvec4& nodes) const {
-        const auto at = [&](int k) { return mesh_.positions[nodes[k]]; };
-        const double volume = std::abs(glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0)));
-        const double size = glm::distance(at(0), at(1));
-        return volume > 1e-3 * size * size * size ? volume : 0.0;
+    glm::dmat3 frame_edges() const {
+        const auto at = [&](int k) { return mesh_.positions[frame_[k]]; };
+        return {at(1) - at(0), at(2) - at(0), at(3) - at(0)};
     }
 
-    Carried carry_by_frame(const glm::dvec3& point) const {
-        const glm::uvec4 nodes = frame();
-        const auto at = [&](int k) { return mesh_.positions[nodes[k]]; };
-        const glm::dmat3 edges(at(1) - at(0), at(2) - at(0), at(3) - at(0));
-        const glm::dvec3 along = glm::inverse(edges) * (point - at(0));
-        return {nodes, {1.0 - along.x - along.y - along.z, along.x, along.y, along.z}};
+    CarriedVertex carry_by_frame(const glm::dvec3& point) const {
+        const glm::dvec3 along = glm::inverse(frame_edges()) * (point - mesh_.positions[frame_.x]);
+        return {frame_, {1.0 - along.x - along.y - along.z, along.x, along.y, along.z}};
     }
 
     const ModelObject& object_;
     bool is_body_;
     TetMesh mesh_;
     double edge_;
+    glm::uvec4 frame_{0};  // of a collider
 };
 
 class AttachmentMaker {
 public:
     AttachmentMaker(const AttachmentDescription& description, std::size_t index, const Scene& scene,
                     const Model& model, std::span<const glm::vec4> positions)
-        : description_(description), scene_(scene), model_(model), positions_(positions) {
+        : description_(description),
+          field_("attachment", index),
+          scene_(scene),
+          model_(model),
+          positions_(positions) {
         made_.name = name_of_attachment(description, index);
         made_.compliance = static_cast<float>(description.compliance);
         if (description.break_force) made_.break_force = static_cast<float>(*description.break_force);
@@ -140,9 +123,9 @@ public:
         // What never moves is in space.
         const bool moves = made_.other != kNoNode && (model.is_body(made_.other) ||
                                                       model.surfaces[made_.other - model.body_count()].moves);
-        if (moves && !other_->has_frame())
+        if (moves && !other_->can_carry())
             fail("to", fmt::format("must not be flat, as '{}' is, and move", other_->name()));
-        is_carried_ = moves;
+        made_.is_in_space = !moves;
     }
 
     Attachment make() {
@@ -158,8 +141,11 @@ public:
 
 private:
     [[noreturn]] void fail(const char* key, const std::string& problem) const {
-        throw InvalidInput(
-            {scene_.file.string(), description_.line, fmt::format("{}.{}", made_.name, key), {}, problem});
+        throw InvalidInput({scene_.file.string(),
+                            description_.line,
+                            describe(field_ / key, description_.name),
+                            {},
+                            problem});
     }
 
     // Bodies come before colliders' surfaces.
@@ -188,8 +174,8 @@ private:
 
     // Points of a joint, which both sides carry.
     void tie(const std::vector<glm::dvec3>& points, const char* key) {
-        check_near(*own_, points, key);
-        const std::vector<Carried> own = own_->carry(points);
+        const std::vector<CarriedVertex> own = own_->carry(points);
+        check_near(*own_, points, own, key);
         std::vector<Tie> ties(points.size());
         for (std::size_t p = 0; p < points.size(); ++p)
             for (int k = 0; k < 4; ++k) add(ties[p], own[p].nodes[k], own[p].weights[k]);
@@ -258,34 +244,30 @@ private:
     }
 
     // A tet that is small beside its distance would throw the point about.
-    void check_near(const Carrier& carrier, const std::vector<glm::dvec3>& points, const char* key) const {
+    void check_near(const Carrier& carrier, const std::vector<glm::dvec3>& points,
+                    const std::vector<CarriedVertex>& carried, const char* key) const {
         const double most = kFar * carrier.edge();
         const lattice::FaceTree hull(carrier.hull());
-        for (const glm::dvec3& point : points) {
-            if (hull.find_nearest(point, most) || is_inside(hull, point)) continue;
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            const glm::dvec4& w = carried[p].weights;
+            const bool is_inside = std::min(std::min(w.x, w.y), std::min(w.z, w.w)) >= 0.0;
+            if (is_inside || hull.find_nearest(points[p], most)) continue;
             fail(key,
                  fmt::format(
                      "[{:.4g}, {:.4g}, {:.4g}] is farther than {:.3g} m from '{}', four edges of its surface",
-                     point.x, point.y, point.z, most, carrier.name()));
+                     points[p].x, points[p].y, points[p].z, most, carrier.name()));
         }
-    }
-
-    static bool is_inside(const lattice::FaceTree& hull, const glm::dvec3& point) {
-        std::vector<lattice::Crossing> crossings;
-        hull.find_crossings(point, point + glm::dvec3(1e4, 1.7, 2.3), crossings);
-        return crossings.size() % 2 == 1;
     }
 
     // Adds what the points are attached to.
     void finish(const std::vector<glm::dvec3>& points, std::vector<Tie> ties, const char* key) {
-        if (is_carried_) {
-            if (model_.is_body(made_.other)) check_near(*other_, points, key);
-            const std::vector<Carried> carried = other_->carry(points);
+        if (made_.is_in_space) {
+            for (std::size_t p = 0; p < ties.size(); ++p) ties[p].at = glm::vec3(points[p]);
+        } else {
+            const std::vector<CarriedVertex> carried = other_->carry(points);
+            if (model_.is_body(made_.other)) check_near(*other_, points, carried, key);
             for (std::size_t p = 0; p < ties.size(); ++p)
                 for (int k = 0; k < 4; ++k) add(ties[p], carried[p].nodes[k], -carried[p].weights[k]);
-        } else {
-            made_.is_in_space = true;
-            for (std::size_t p = 0; p < ties.size(); ++p) ties[p].at = glm::vec3(points[p]);
         }
         made_.ties = std::move(ties);
     }
@@ -297,11 +279,11 @@ private:
     }
 
     const AttachmentDescription& description_;
+    FieldPath field_;
     const Scene& scene_;
     const Model& model_;
     std::span<const glm::vec4> positions_;
     std::optional<Carrier> own_, other_;
-    bool is_carried_ = false;  // by what it is attached to
     Attachment made_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
+#include <vector>
 
 namespace gelatin {
 namespace {
@@ -61,6 +63,20 @@ SurfaceParts make_surface_parts(std::span<const Face> faces, const NodeFaces& ar
     Parts parts(faces, around);
     for (std::uint32_t f = 0; f < faces.size(); ++f) parts.append_face(f);
     return parts.finish();
+}
+
+double median_edge(const Model& model, std::size_t object, std::span<const glm::vec4> positions) {
+    const Range& faces = model.objects[object].faces;
+    const std::vector<glm::uvec2>& starts = model.surface_parts.face_starts;
+    std::vector<double> lengths;
+    for (std::uint32_t e = starts[faces.first].y; e < starts[faces.end()].y; ++e) {
+        const FaceEdge& edge = model.surface_parts.edges[e];
+        lengths.push_back(glm::distance(glm::dvec3(positions[edge.a]), glm::dvec3(positions[edge.b])));
+    }
+    if (lengths.empty()) return 0.0;
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
 }
 
 }  // namespace gelatin

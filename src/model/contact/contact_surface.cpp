@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "model/collision/surface_parts.h"
 #include "model/corners.h"
 
 namespace gelatin {
@@ -100,24 +101,10 @@ void add_tets(const Model& model, std::vector<double>& traces) {
 }
 
 std::vector<double> find_thicknesses(const Model& model) {
-    std::vector<std::vector<double>> lengths(model.objects.size());
-    for (const FaceEdge& edge : model.surface_parts.edges)
-        lengths[edge.object].push_back(
-            glm::distance(glm::dvec3(model.positions[edge.a]), glm::dvec3(model.positions[edge.b])));
     std::vector<double> thicknesses;
-    for (std::size_t o = 0; o < lengths.size(); ++o) {
-        std::vector<double>& of_object = lengths[o];
-        if (model.objects[o].surface.thickness) {
-            thicknesses.push_back(*model.objects[o].surface.thickness);
-            continue;
-        }
-        if (of_object.empty() || !model.is_body(o)) {
-            thicknesses.push_back(0.0);
-            continue;
-        }
-        const auto middle = of_object.begin() + static_cast<std::ptrdiff_t>(of_object.size() / 2);
-        std::nth_element(of_object.begin(), middle, of_object.end());
-        thicknesses.push_back(kThickness * *middle);
+    for (std::size_t o = 0; o < model.objects.size(); ++o) {
+        const double of_edges = model.is_body(o) ? kThickness * median_edge(model, o, model.positions) : 0.0;
+        thicknesses.push_back(model.objects[o].surface.thickness.value_or(of_edges));
     }
     return thicknesses;
 }

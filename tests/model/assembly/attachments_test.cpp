@@ -162,19 +162,19 @@ TEST(MakeAttachment, TiesToColliders) {
 TEST(MakeAttachment, SaysWhatIsWrong) {
     const Scene scene = cubes();
     EXPECT_EQ(error_of(scene, {.object = "a", .where = HalfSpaceRegion{{0, 1, 0}, -1.0}}),
-              "attachment 1.region: holds no node of 'a' (regions are in world coordinates at the start)");
+              "attachment[0].region: holds no node of 'a' (regions are in world coordinates at the start)");
     Scene far = scene;
     far.objects[1].position.x = 0.5;
     EXPECT_TRUE(
-        error_of(far, {.object = "b", .to = "a"}).starts_with("attachment 1.to: 'b' has no node within "));
+        error_of(far, {.object = "b", .to = "a"}).starts_with("attachment[0].to: 'b' has no node within "));
     EXPECT_TRUE(error_of(scene, {.object = "a", .to = "b", .where = AttachedPoint{{0.0, 3.0, 0.0}}})
-                    .starts_with("attachment 1.point: [0, 3, 0] is farther than "));
+                    .starts_with("attachment[0].point: [0, 3, 0] is farther than "));
     Scene flat = scene;
     flat.colliders[1].shape = MeshShape{std::make_shared<const Mesh>(Mesh{
         {{-0.1, 0, -0.1}, {0.1, 0, -0.1}, {0.1, 0, 0.1}, {-0.1, 0, 0.1}}, {{0, 2, 1}, {0, 3, 2}}, {}, {}})};
     flat.colliders[1].position.y = 0.208;
     EXPECT_EQ(error_of(flat, {.object = "a", .to = "moving"}),
-              "attachment 1.to: must not be flat, as 'moving' is, and move");
+              "attachment[0].to: must not be flat, as 'moving' is, and move");
 }
 
 }  // namespace
