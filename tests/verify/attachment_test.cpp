@@ -466,8 +466,11 @@ TEST(Attachments, GoOnFromACheckpoint) {
     for (const std::size_t object : {0u, 1u, 2u}) EXPECT_EQ(other.center(object), run.center(object));
     // What the checkpoint does not know stays.
     other.simulator().attach({.object = "bottom", .where = AttachedPoint{other.center(2)}});
+    other.advance(0.1);
+    const glm::dvec3 force = other.force(3);
     other.simulator().load_checkpoint(file);
     EXPECT_FALSE(other.is_broken(3));
+    EXPECT_EQ(other.force(3), force);
     std::filesystem::remove(file);
 }
 
