@@ -101,7 +101,7 @@ def test_what_is_wrong_is_named():
     for wrong, error, message in (
         (lambda: sim.attach("lowest", "upper"), gelatin.InvalidInput, "attachment[1].object"),
         (lambda: sim.attach("lower"), gelatin.InvalidInput, "attachment[1]"),
-        (lambda: sim.attach(*LOWER, gelatin.SphereRegion((5, 0, 0), 0.1)), gelatin.InvalidInput, "attachment 2.region"),
+        (lambda: sim.attach(*LOWER, gelatin.SphereRegion((5, 0, 0), 0.1)), gelatin.InvalidInput, "attachment[1].region"),
         (lambda: sim.attach(*LOWER, compliance=-1), gelatin.InvalidInput, "attachment[1].compliance"),
         (lambda: sim.attach("lower", 3), TypeError, "attachment.to = 3"),
         (lambda: sim.attach(joint, "upper"), gelatin.InvalidInput, "object: a gelatin.Attachment says all of it"),
