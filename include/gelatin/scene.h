@@ -289,6 +289,14 @@ struct StartDescription {
     double scatter = 0.0;   ///< then a random displacement of each coordinate by up to this [m], >= 0
 };
 
+/// What a rigid object has where its shape and the density of its material do not say it.
+struct RigidDescription {
+    std::optional<double> mass = {};  ///< [kg], > 0; empty: by density
+    /// About the centre of mass, along the axes of the shape before it is rotated [kg m^2]: > 0, and none
+    /// more than both others together. Empty: as for an even density.
+    std::optional<glm::dvec3> inertia = {};
+};
+
 struct ObjectDescription {
     std::string name;
     Shape shape;
@@ -318,6 +326,11 @@ struct ObjectDescription {
     std::optional<Axis> up = {};
 
     int pins_line = 0;  ///< of `pins`, as `line`
+
+    /// A rigid body of the shape's closed surface, for SolverKind::implicit. Of its material density,
+    /// friction, thickness, contact_stiffness and restitution count; it has no mesher, start, parts, pins and
+    /// handles. Empty: the object is deformable.
+    std::optional<RigidDescription> rigid = {};
 };
 
 struct PlaneCollider {
