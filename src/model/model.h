@@ -36,6 +36,7 @@ struct ModelObject {
     std::string name;
     Range nodes, springs, faces, tets, handle_nodes;
     Range neo_hookean_tets;    ///< all of its tets, or none
+    bool is_rigid = false;     ///< a body without springs and tets; four of its nodes are on no face
     double mass = 0.0;         ///< [kg]
     double rest_volume = 0.0;  ///< [m^3]
     glm::vec3 color{0.0f};     ///< linear RGB; negative if the scene gives none

@@ -151,7 +151,8 @@ bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
 
 template <class Real>
 bool FindPairs<Real>::may_meet_itself(std::uint32_t object) const {
-    return finds_own_ && (!kept_.is_convex(object) || owns_[object].boxes.size() > 0);
+    return finds_own_ && !model_->objects[object].is_rigid &&
+           (!kept_.is_convex(object) || owns_[object].boxes.size() > 0);
 }
 
 template <class Real>

@@ -9,6 +9,7 @@
 #include "cpu/collision/colliders.h"
 #include "cpu/contact/nearest_pairs.h"
 #include "cpu/contact/tuning.h"
+#include "cpu/implicit/rigid_inertia.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -29,6 +30,7 @@ Guard<Real>::Guard(std::shared_ptr<const Model> model, std::shared_ptr<const Con
     : model_(std::move(model)),
       surface_(std::move(surface)),
       object_of_(objects_of_nodes(*model_)),
+      rigid_bodies_(model_),
       frames_(model_->objects.size()),
       wanted_(model_->node_count()),
       first_(model_->node_count(), kNoNode),
@@ -89,10 +91,11 @@ void Guard<Real>::add(std::uint32_t node, const Vec3<Real>& normal, Real room) {
 }
 
 template <class Real>
-void Guard<Real>::keep_outside_colliders(const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
+void Guard<Real>::keep_outside_colliders(const Paths<Real>& paths, std::span<const Real> compliances,
+                                         std::span<Vec4<Real>> ends) {
     for (const Collider& collider : model_->colliders) {
         for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
-            if (ends[n].w == Real(0)) continue;
+            if (compliances[n] == Real(0)) continue;
             const auto [least, space] = beside_collider(collider, n, paths);
             if (surface_distance(collider, Vec3<Real>(ends[n])).distance >= least) continue;
             if (collider.kind == 0) {  // place() knows them all
@@ -221,19 +224,89 @@ void Guard<Real>::clip(const NearPair<Real>& near, const Paths<Real>& paths,
     has_changed_ = true;
 }
 
+// All planes, as what keeps a node out of one may push it into another.
+template <class Real>
+template <class Use>
+void Guard<Real>::for_spaces(std::uint32_t node, const Paths<Real>& paths, const Use& use) const {
+    for (std::uint32_t h = first_[node]; h != kNoNode; h = half_spaces_[h].next) use(half_spaces_[h]);
+    for (std::size_t c = model_->colliders.size(); c-- > 0;)
+        if (model_->colliders[c].kind == 0) use(beside_collider(model_->colliders[c], node, paths).space);
+}
+
+// As place() does with a node: a rigid body's motion is projected on the half spaces of all of its nodes, as
+// impulses would change it, and then shortened.
+template <class Real>
+void Guard<Real>::place_body(std::uint32_t object, const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
+    const Range& nodes = model_->objects[object].nodes;
+    const std::span<const Vec4<Real>> starts = std::span(paths.from).subspan(nodes.first, nodes.count);
+    std::vector<Vec4<Real>> wanted(starts.begin(), starts.end());
+    for (std::uint32_t k = 0; k < nodes.count; ++k) wanted[k] += Vec4<Real>(wanted_[nodes.first + k], 0);
+    const Pose from = rigid_bodies_.pose(object, starts), to = rigid_bodies_.pose(object, wanted);
+    glm::dvec3 s = to.center - from.center, w = rotation_vector(to.rotation * glm::transpose(from.rotation));
+    RigidSums sums;
+    bool is_frozen = false;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        sums.add(glm::dvec3(paths.from[n]) - from.center, static_cast<double>(model_->masses[n]),
+                 glm::dvec3(0.0));
+        is_frozen = is_frozen || is_frozen_[n] != 0;
+    }
+    const RigidInertia inertia(sums);
+    const auto arm = [&](std::uint32_t n) { return glm::dvec3(paths.from[n]) - from.center; };
+    // visit(normal, how far beyond its room a node is, what is little, where its arm is)
+    const auto for_all = [&](double part, const auto& visit) {
+        const glm::dmat3 turn = rotation_about(part * w);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            if (surface_->places[n] == kNoNode) continue;
+            const glm::dvec3 r = turn * arm(n), d = part * s + r - arm(n);
+            for_spaces(n, paths, [&](const HalfSpace& space) {
+                const glm::dvec3 normal(space.normal);
+                const double along = glm::dot(normal, d), room = static_cast<double>(space.room);
+                if (along - room > 1e-6 * glm::length(d)) visit(normal, along, room, r);
+            });
+        }
+    };
+    for (int k = 0; k < tuning::kProjections; ++k) {
+        bool is_outside = false;
+        glm::dvec3 force(0.0), moment(0.0);
+        double most = 0.0;
+        for_all(1.0, [&](const glm::dvec3& normal, double along, double room, const glm::dvec3& r) {
+            const glm::dvec3 turning = glm::cross(r, normal);
+            const double mobility =
+                inertia.inverse_mass + glm::dot(turning, inertia.inverse_inertia * turning);
+            if (along - room <= most) return;
+            most = along - room;  // the farthest first
+            force = most / mobility * normal;
+            moment = most / mobility * turning;
+            is_outside = true;
+        });
+        if (!is_outside) break;
+        s -= inertia.inverse_mass * force;
+        w -= inertia.inverse_inertia * moment;
+    }
+    double part = is_frozen ? 0.0 : 1.0;
+    for (int k = 0; part > 0.0; ++k) {
+        double shorter = 1.0;
+        for_all(part, [&](const glm::dvec3&, double along, double room, const glm::dvec3&) {
+            shorter = std::min(shorter, 0.99 * std::max(room, 0.0) / along);
+        });
+        if (shorter == 1.0) break;
+        part *= k < tuning::kProjections ? shorter : 0.0;
+    }
+    const glm::dmat3 turn = rotation_about(part * w);
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const glm::dvec3 end = from.center + part * s + turn * arm(n) + glm::dvec3(frames_[object]);
+        ends[n] = Vec4<Real>(Vec3<Real>(end), ends[n].w);
+        is_changed_[n] = 1;
+    }
+}
+
 template <class Real>
 void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
-    // All planes, as what keeps a node out of one may push it into another.
-    const auto for_spaces = [&](const auto& use) {
-        for (std::uint32_t h = first_[node]; h != kNoNode; h = half_spaces_[h].next) use(half_spaces_[h]);
-        for (std::size_t c = model_->colliders.size(); c-- > 0;)
-            if (model_->colliders[c].kind == 0) use(beside_collider(model_->colliders[c], node, paths).space);
-    };
     Vec3<Real> d = wanted_[node];
     const Real tiny = Real(1e-6) * glm::length(d);
     for (int k = 0; k < tuning::kProjections; ++k) {
         bool is_outside = false;
-        for_spaces([&](const HalfSpace& space) {
+        for_spaces(node, paths, [&](const HalfSpace& space) {
             const Real over = glm::dot(space.normal, d) - space.room;
             if (!(over > tiny)) return;
             d -= over * space.normal;
@@ -242,7 +315,7 @@ void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<
         if (!is_outside) break;
     }
     Real part = 1;
-    for_spaces([&](const HalfSpace& space) {
+    for_spaces(node, paths, [&](const HalfSpace& space) {
         const Real along = glm::dot(space.normal, d);
         if (along > space.room) part = std::min(part, std::max(space.room, Real(0)) / along);
     });
@@ -294,15 +367,21 @@ void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>>
     for_each_index(ends.size(), [&](std::size_t n) {
         wanted_[n] = Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]) - frames_[object_of_[n]];
     });
-    keep_outside_colliders(paths, ends);
+    keep_outside_colliders(paths, compliances, ends);
     // In rounds: what is clipped moves nodes, so other pairs of these are checked again.
     std::vector<std::uint8_t> fails(pairs.size());
     for (bool is_first = true;; is_first = false) {
         bool any = false;
         for (std::uint32_t n = 0; n < ends.size(); ++n) {
             if (is_changed_[n] == 0) continue;
-            place(n, paths, ends);
+            if (!rigid_bodies_.is_rigid(object_of_[n])) place(n, paths, ends);
             any = true;
+        }
+        for (const std::uint32_t o : rigid_bodies_.objects()) {
+            const auto changed = is_changed_.begin() + model_->objects[o].nodes.first;
+            if (std::find(changed, changed + model_->objects[o].nodes.count, 1) !=
+                changed + model_->objects[o].nodes.count)
+                place_body(o, paths, ends);
         }
         if (!is_first && !any) break;
         for_each_index(pairs.size(), [&](std::size_t p) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cpu/implicit/find_pairs.h"
+#include "cpu/implicit/rigid_bodies.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
@@ -55,17 +56,22 @@ private:
     Vec3<Real> outside_planes(Vec3<Real> frame) const;
     BesideCollider beside_collider(const Collider& collider, std::uint32_t node,
                                    const Paths<Real>& paths) const;
-    void keep_outside_colliders(const Paths<Real>& paths, std::span<Vec4<Real>> ends);
+    void keep_outside_colliders(const Paths<Real>& paths, std::span<const Real> compliances,
+                                std::span<Vec4<Real>> ends);
     bool is_apart(const NearPair<Real>& near, const Paths<Real>& paths,
                   std::span<const Vec4<Real>> ends) const;
     void clip(const NearPair<Real>& near, const Paths<Real>& paths, std::span<const Real> compliances,
               std::span<const Vec4<Real>> ends);
     void add(std::uint32_t node, const Vec3<Real>& normal, Real room);
+    template <class Use>
+    void for_spaces(std::uint32_t node, const Paths<Real>& paths, const Use& use) const;
     void place(std::uint32_t node, const Paths<Real>& paths, std::span<Vec4<Real>> ends);
+    void place_body(std::uint32_t object, const Paths<Real>& paths, std::span<Vec4<Real>> ends);
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     std::vector<std::uint32_t> object_of_;
+    RigidBodies<Real> rigid_bodies_;
     std::vector<Vec3<Real>> frames_;    // by object: what its island has in common [m]
     std::vector<Vec3<Real>> wanted_;    // displacements in the frame [m]
     std::vector<std::uint32_t> first_;  // half space of each node, or kNoNode

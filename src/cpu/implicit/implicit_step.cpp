@@ -21,6 +21,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       contacts_(contacts),
       own_(own),
       object_of_(objects_of_nodes(*model_)),
+      rigid_bodies_(model_),
       pairs_(model_, surface_, own),
       rows_(model_, surface_),
       attachments_(model_),
@@ -209,6 +210,7 @@ template <class Real>
 bool ImplicitStep<Real>::is_torn(bool limits) {
     std::atomic<bool> is_torn = false;
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
+        if (rigid_bodies_.is_rigid(o)) return;
         const Range& nodes = model_->objects[o].nodes;
         const std::span<const Vec3<Real>> moved(&system_.displacements[nodes.first], nodes.count);
         const Vec3<Real> mean =
@@ -290,10 +292,21 @@ void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>
         // What is calm is carried by what it touches.
         const bool is_carried = model_->is_body(object_of_[n]) && paces_.is_calm(object_of_[n]);
         ends_[n] = Vec4<Real>(x + (is_carried ? step * v : expected_[n]), previous.positions[n].w);
-        compliances_[n] = is_held ? Real(0)
-                                  : Real(1) / (Real(1) / (previous.positions[n].w * least * least) +
-                                               static_cast<Real>(surface_->stiffness[n]) / Real(3));
+        compliances_[n] = is_held ? Real(0) : compliance(n, previous.positions[n].w, least);
     });
+}
+
+// 1 / h of a node in contacts. A rigid body lies on a few of its nodes, however many it has: each is as heavy
+// as a part of it, and those inside touch nothing.
+template <class Real>
+Real ImplicitStep<Real>::compliance(std::size_t n, Real inverse_mass, Real step) const {
+    const ModelObject& object = model_->objects[object_of_[n]];
+    if (object.is_rigid)
+        return surface_->places[n] == kNoNode
+                   ? Real(0)
+                   : step * step / static_cast<Real>(tuning::kBearing * object.mass);
+    return Real(1) /
+           (Real(1) / (inverse_mass * step * step) + static_cast<Real>(surface_->stiffness[n]) / Real(3));
 }
 
 template <class Real>
@@ -461,6 +474,7 @@ std::vector<std::uint32_t> ImplicitStep<Real>::stop_guarded(const Nodes<Real>& p
             current.velocities[n] -=
                 Vec4<Real>(Vec3<Real>(lost.at(glm::dvec3(current.positions[n]) - inertia.center)), 0);
     }
+    rigid_bodies_.keep_velocities(current);
     return stopped;
 }
 
@@ -489,6 +503,7 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
                 input.pulls->force_at_end(n, Vec4<Real>(Vec3<Real>(x) + d[n], x.w), Vec3<Real>(x), step_);
         }
     system_.rigid.rotate(previous.positions, system_.inertia, d);
+    rigid_bodies_.keep_shapes(previous.positions, d);
     for_each_index(d.size(), [&](std::size_t n) {
         const Vec4<Real> x = previous.positions[n], v = previous.velocities[n];
         current.positions[n] = Vec4<Real>(Vec3<Real>(x) + d[n], x.w);
@@ -498,6 +513,7 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
         }
         current.velocities[n] = Vec4<Real>(scheme_.velocity(previous, n, d[n]), v.w);
     });
+    rigid_bodies_.keep_velocities(current);
     scheme_.keep_momenta(system_.rigid, attachments_.groups(), forces, current);
 }
 

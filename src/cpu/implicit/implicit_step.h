@@ -19,6 +19,7 @@
 #include "cpu/implicit/paces.h"
 #include "cpu/implicit/rest_watch.h"
 #include "cpu/implicit/restitution.h"
+#include "cpu/implicit/rigid_bodies.h"
 #include "cpu/implicit/step_system.h"
 #include "cpu/implicit/time_scheme.h"
 #include "cpu/nodes.h"
@@ -101,6 +102,7 @@ private:
     void begin(const StepInput<Real>& input, const Nodes<Real>& previous);
     bool wake_near(const StepInput<Real>& input, Nodes<Real>& previous);
     bool is_asleep(const ContactRow<Real>& row) const;
+    Real compliance(std::size_t n, Real inverse_mass, Real step) const;
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
@@ -121,6 +123,7 @@ private:
     std::shared_ptr<const ContactSurface> surface_;
     bool contacts_, own_;
     std::vector<std::uint32_t> object_of_;
+    RigidBodies<Real> rigid_bodies_;
     FindPairs<Real> pairs_;
     ContactRows<Real> rows_;
     AttachmentRows<Real> attachments_;

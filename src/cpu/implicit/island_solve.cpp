@@ -61,7 +61,7 @@ void IslandSolve<Real>::find_slips() {
 
 template <class Real>
 void IslandSolve<Real>::prepare_preconditioner(bool only_rows) {
-    nodes_.for_each([&](std::uint32_t n) {
+    const auto find_block = [&](std::uint32_t n) {
         const bool has_rows = system_.row_starts_[n] < system_.row_starts_[n + 1];
         if (system_.inertia[n] == Real(0) || (only_rows && !has_rows)) return;
         SymmetricMatrix<Real> block = system_.elastic.diagonal()[n];
@@ -74,6 +74,12 @@ void IslandSolve<Real>::prepare_preconditioner(bool only_rows) {
             block.beside += weight * weight * stiffness.beside;
         }
         system_.inverse_blocks_[n] = inverse_of(block);
+    };
+    // Nodes of rigid bodies have no step of their own: their blocks stay 0, and what is left of iterations
+    // are those in the space of rigid motions.
+    nodes_.for_each_piece([&](const ObjectPieces::Piece& piece) {
+        if (system_.model_->objects[bodies_[piece.object]].is_rigid) return;
+        for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) find_block(n);
     });
     rigid_.find_matrix();
 }

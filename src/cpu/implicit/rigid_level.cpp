@@ -3,21 +3,13 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "cpu/implicit/rigid_bodies.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
-namespace {
-
-glm::dmat3 rotation_about(const glm::dvec3& w) {
-    const double angle = glm::length(w);
-    return angle > 0.0 ? glm::mat3_cast(glm::angleAxis(angle, w / angle)) : glm::dmat3(1.0);
-}
-
-}  // namespace
 
 template <class Real>
 RigidLevel<Real>::RigidLevel(std::shared_ptr<const Model> model)

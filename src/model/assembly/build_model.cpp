@@ -16,6 +16,7 @@
 
 #include "core/progress.h"
 #include "gelatin/error.h"
+#include "mesh/surface_repair.h"
 #include "mesh/topology.h"
 #include "model/assembly/body_handles.h"
 #include "model/assembly/draw_surface.h"
@@ -33,6 +34,7 @@
 #include "model/spring_packing.h"
 #include "model/springs/spring_moduli.h"
 #include "model/springs/springs.h"
+#include "model/transform.h"
 
 namespace gelatin {
 namespace {
@@ -94,6 +96,8 @@ float checked_float(double value, const std::string& object, const char* what) {
 void append_nodes(Model& model, const Body& body, const Arranged& arranged) {
     const TetMesh& mesh = arranged.mesh;
     std::vector<double> masses(mesh.positions.size(), 0.0), damping(masses);
+    for (std::size_t n = 0; n < body.rigid_masses.size(); ++n)
+        masses[arranged.new_index[n]] = body.rigid_masses[n];
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const Material& material = body.material_of(arranged.old_tets[t]);
         const double quarter = 0.25 * material.density * tet_volume(mesh, mesh.tets[t]);
@@ -121,14 +125,16 @@ void append_nodes(Model& model, const Body& body, const Arranged& arranged) {
     }
 }
 
-bool has_springs(const Body& body) {
-    return body.material.model == MaterialModel::mass_spring;
-}
-
 // Pairs of nodes that exert forces on each other, by the body mesh's indices.
 std::vector<glm::uvec2> joined_nodes(const Body& body, const FittedSprings* fitted) {
-    if (!has_springs(body)) return tet_edges(body.mesh.tets);
+    if (body.has_neo_hookean_tets()) return tet_edges(body.mesh.tets);
     std::vector<glm::uvec2> nodes;
+    if (body.is_rigid()) {  // which are near each other
+        for (const glm::uvec3& f : body.mesh.faces)
+            for (int k = 0; k < 3; ++k)
+                if (f[k] < f[(k + 1) % 3]) nodes.emplace_back(f[k], f[(k + 1) % 3]);
+        return nodes;
+    }
     if (fitted != nullptr) {
         for (const UnitSpring& spring : fitted->springs) nodes.push_back(spring.nodes);
     } else {
@@ -214,7 +220,7 @@ NodeTets make_neo_hookean_corners(const Model& model) {
 
 // Null if the material names the paper's springs, or has none.
 std::shared_ptr<const FittedSprings> fitted_springs(const Body& body) {
-    if (!has_springs(body) || body.material.springs) return nullptr;
+    if (!body.has_springs() || body.material.springs) return nullptr;
     return body.fitted ? body.fitted : std::make_shared<const FittedSprings>(fit_springs(body.mesh));
 }
 
@@ -241,8 +247,11 @@ std::vector<std::uint32_t> append_body(Model& model, const Body& body) {
     append_handles(body, mesh.positions, first, model);
     object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
     append_loads(body.loads, mesh, std::span(model.masses).subspan(first), first, model.loads);
-    if (has_springs(body)) append_springs(model, springs_of(body, order, fitted.get()), body.name, first);
+    if (body.has_springs()) append_springs(model, springs_of(body, order, fitted.get()), body.name, first);
     object.springs.count = size(model.springs) - object.springs.first;
+    object.is_rigid = body.is_rigid();
+    object.mass = std::accumulate(body.rigid_masses.begin(), body.rigid_masses.end(), 0.0);
+    object.rest_volume = body.rigid_volume;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const Material& material = body.material_of(order.old_tets[t]);
         const double volume = tet_volume(mesh, mesh.tets[t]);
@@ -250,14 +259,14 @@ std::vector<std::uint32_t> append_body(Model& model, const Body& body) {
         object.mass += volume * material.density;
         model.tets.push_back(mesh.tets[t] + first);
         model.shear_moduli.push_back(static_cast<float>(shear_modulus(material)));
-        const double kappa = has_springs(body) ? lacking_modulus(material) : moduli_of(material).kappa;
+        const double kappa = body.has_springs() ? lacking_modulus(material) : moduli_of(material).kappa;
         model.tet_rests.push_back({checked_float(volume, body.name, "a tet's volume [m^3]"),
-                                   has_springs(body) ? static_cast<float>(material.youngs_modulus) : 0.0f,
+                                   body.has_springs() ? static_cast<float>(material.youngs_modulus) : 0.0f,
                                    static_cast<float>(bulk_modulus(material) - kappa),
                                    static_cast<float>(kappa)});
     }
     object.neo_hookean_tets.first = size(model.neo_hookean_tets);
-    if (!has_springs(body)) append_neo_hookean_tets(model, body, order, first);
+    if (body.has_neo_hookean_tets()) append_neo_hookean_tets(model, body, order, first);
     object.neo_hookean_tets.count = size(model.neo_hookean_tets) - object.neo_hookean_tets.first;
     for (const glm::uvec3& f : mesh.faces) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
@@ -276,9 +285,10 @@ const Material& find_material(const Scene& scene, const std::string& name) {
 }
 
 // Readers of meshes do not know which object wants a file that is not there.
-TetMesh make_mesh(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
+template <class Make>
+auto with_file(const Scene& scene, const ObjectDescription& object, const Make& make) {
     try {
-        return mesher.make(object);
+        return make();
     } catch (const InvalidInput& error) {
         const auto* shape = std::get_if<FileShape>(&object.shape);
         const bool is_missing = shape != nullptr && error.problem().file == shape->file.string() &&
@@ -290,22 +300,58 @@ TetMesh make_mesh(const Scene& scene, const ObjectDescription& object, ObjectMes
     }
 }
 
-Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
-    Body body;
-    body.name = object.name;
-    body.mesh = make_mesh(scene, object, mesher);
-    body.material = find_material(scene, object.material);
+void make_deformable(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher, Body& body) {
+    body.mesh = with_file(scene, object, [&] { return mesher.make(object); });
     for (const PartDescription& part : object.parts)
         body.part_materials.push_back(find_material(scene, part.material));
     body.tet_materials = choose_tet_materials(object, body.mesh, scene.file.string());
+    if (body.has_springs() && !body.material.springs) body.fitted = mesher.fit(object);
+    body.scale = object.scale;
+    body.skin = mesher.skin(object);
+}
+
+// Its surface as it is, and what it weighs.
+void make_rigid(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher, Body& body) {
+    SurfaceMesh surface = with_file(
+        scene, object, [&] { return mesher.surface(object.shape, "rigid body '" + object.name + "'"); });
+    const Openness openness = measure_openness(surface);
+    if (surface.faces.empty() || !openness.is_closed())
+        throw InvalidInput(
+            {scene.file.string(),
+             object.line,
+             fmt::format("rigid.{}.shape", object.name),
+             {},
+             fmt::format("its surface must be closed: it has {} faces, {} edges of one face and "
+                         "{} of three or more",
+                         surface.faces.size(), openness.boundary_edges, openness.non_manifold_edges)});
+    const glm::dquat orientation = orientation_of(object, scene.up);
+    for (glm::dvec3& p : surface.positions) p = orientation * (object.scale * p) + object.position;
+    body.rigid_volume = signed_volume(surface);
+    RigidNodes nodes = make_rigid_nodes(
+        surface, with_description(solid_moments(surface, body.material.density), *object.rigid, orientation));
+    body.mesh = std::move(nodes.mesh);
+    body.rigid_masses = std::move(nodes.masses);
+    if (surface.look.is_empty() && surface.look.corner_uvs.empty()) return;
+    ShapeSkin skin{surface.faces, {}, 0.0, surface.look};
+    for (std::uint32_t n = 0; n < surface.positions.size(); ++n)
+        skin.vertices.push_back({glm::uvec4(n), {1.0, 0.0, 0.0, 0.0}});
+    body.skin = std::make_shared<const ShapeSkin>(std::move(skin));
+}
+
+Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
+    Body body;
+    body.name = object.name;
+    body.material = find_material(scene, object.material);
+    if (object.rigid) {
+        make_rigid(scene, object, mesher, body);
+    } else {
+        make_deformable(scene, object, mesher, body);
+    }
     body.velocity = object.velocity;
     body.spin = glm::radians(object.spin);
     body.pins = object.pins;
     body.handles = object.handles;
     body.loads = object.loads;
-    if (has_springs(body) && !body.material.springs) body.fitted = mesher.fit(object);
-    body.scale = object.scale;
-    body.skin = mesher.skin(object);
     if (object.color) body.color = glm::vec3(*object.color);
     check_regions(scene.file, object, body.mesh);
     return body;

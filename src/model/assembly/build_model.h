@@ -6,12 +6,13 @@
 #include "mesh/tet_mesh.h"
 #include "model/assembly/collider_surface.h"
 #include "model/assembly/object_mesh.h"
+#include "model/assembly/rigid_body.h"
 #include "model/model.h"
 #include "model/springs/fit_springs.h"
 
 namespace gelatin {
 
-/// One body ready to be packed: tets in world coordinates, and their materials.
+/// One body ready to be packed: tets in world coordinates, and their materials; or a rigid one.
 struct Body {
     std::string name;
     TetMesh mesh;
@@ -33,9 +34,16 @@ struct Body {
     std::shared_ptr<const FittedSprings> fitted;
     double scale = 1.0;  ///< scale of the mesh relative to the one that `fitted` belongs to
 
+    /// Of a rigid body: its nodes' masses [kg], shape [nodes], and its volume [m^3]. Empty: tets have masses.
+    std::vector<double> rigid_masses = {};
+    double rigid_volume = 0.0;
+
     /// What is drawn of it, by the indices of the mesh's nodes; null: the boundary of the tets.
     std::shared_ptr<const ShapeSkin> skin = {};
 
+    bool is_rigid() const { return !rigid_masses.empty(); }
+    bool has_springs() const { return !is_rigid() && material.model == MaterialModel::mass_spring; }
+    bool has_neo_hookean_tets() const { return !is_rigid() && material.model != MaterialModel::mass_spring; }
     /// Of a tet of `mesh`.
     const Material& material_of(std::size_t tet) const {
         const std::uint32_t m = tet_materials.empty() ? 0 : tet_materials[tet];

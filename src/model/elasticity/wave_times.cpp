@@ -13,7 +13,7 @@ std::vector<double> wave_times(const Model& model) {
             volume += static_cast<double>(rest.volume);
             stiffness += static_cast<double>(rest.volume) * static_cast<double>(rest.bulk);
         }
-        times.push_back(std::cbrt(volume) * std::sqrt(body.mass / stiffness));
+        times.push_back(body.is_rigid ? 0.0 : std::cbrt(volume) * std::sqrt(body.mass / stiffness));
     }
     return times;
 }
