@@ -285,7 +285,7 @@ TetMesh make_mesh(const Scene& scene, const ObjectDescription& object, ObjectMes
                                 !std::filesystem::exists(shape->file);
         if (!is_missing) throw;
         throw InvalidInput({scene.file.string(), object.line,
-                            fmt::format("object.{}.shape.file", object.name), shape->file.string(),
+                            fmt::format("{}.{}.shape.file", table_name(object), object.name), shape->file.string(),
                             error.problem().problem});
     }
 }
