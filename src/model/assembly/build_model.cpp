@@ -30,6 +30,7 @@
 #include "model/elasticity/neo_hookean.h"
 #include "model/elasticity/volume_term.h"
 #include "model/region.h"
+#include "model/setting_names.h"
 #include "model/spring_packing.h"
 #include "model/springs/spring_moduli.h"
 #include "model/springs/springs.h"
@@ -285,8 +286,8 @@ TetMesh make_mesh(const Scene& scene, const ObjectDescription& object, ObjectMes
                                 !std::filesystem::exists(shape->file);
         if (!is_missing) throw;
         throw InvalidInput({scene.file.string(), object.line,
-                            fmt::format("{}.{}.shape.file", table_name(object), object.name), shape->file.string(),
-                            error.problem().problem});
+                            fmt::format("{}.{}.shape.file", table_name(object), object.name),
+                            shape->file.string(), error.problem().problem});
     }
 }
 

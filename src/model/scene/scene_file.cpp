@@ -161,9 +161,8 @@ Scene read_scene(const std::string& text, const std::filesystem::path& file,
     if (collision) scene.collision = read_collision(*collision);
     if (camera) scene.camera = read_camera(*camera);
     scene.materials = read_materials(std::move(materials));
-    ReadObjects read =
-        merge_objects(read_objects(std::move(objects), scene.materials, file.parent_path()),
-                      read_rigids(std::move(rigids), scene.materials, file.parent_path()));
+    ReadObjects read = merge_objects(read_objects(std::move(objects), scene.materials, file.parent_path()),
+                                     read_rigids(std::move(rigids), scene.materials, file.parent_path()));
     scene.objects = std::move(read.objects);
     scene.colliders = read_colliders(std::move(colliders), scene.collision, file.parent_path());
     scene.attachments = read_attachments(std::move(attachments));

@@ -208,7 +208,8 @@ void append(std::vector<ObjectDescription> objects, std::size_t table, ReadObjec
 ReadObjects read_objects(std::vector<TableReader> tables, const std::vector<Material>& materials,
                          const std::filesystem::path& folder) {
     ReadObjects read;
-    for (std::size_t t = 0; t < tables.size(); ++t) append(read_object(tables[t], materials, folder), t, read);
+    for (std::size_t t = 0; t < tables.size(); ++t)
+        append(read_object(tables[t], materials, folder), t, read);
     return read;
 }
 

@@ -166,7 +166,8 @@ private:
         refuse("handle", !object.handles.empty(), kHoldsNoNodes);
         refuse("mesher", object.mesher != usual.mesher, kHasNoTets);
         refuse("part", !object.parts.empty(), kHasNoTets);
-        refuse("start", object.start.scale != usual.start.scale || object.start.scatter != usual.start.scatter,
+        refuse("start",
+               object.start.scale != usual.start.scale || object.start.scatter != usual.start.scatter,
                kHasNoTets);
         refuse("skin", object.skin != usual.skin, kHasNoTets);
     }
