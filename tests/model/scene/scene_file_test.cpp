@@ -189,7 +189,8 @@ TEST_F(SceneFile, RefusesAnEmptyFile) {
 }
 
 TEST_F(SceneFile, RefusesASceneWithoutObjects) {
-    EXPECT_EQ(error("[simulation]\nframes = 3\n"), "scene.toml: has no objects: add an [[object]] or a [[rigid]]");
+    EXPECT_EQ(error("[simulation]\nframes = 3\n"),
+              "scene.toml: has no objects: add an [[object]] or a [[rigid]]");
 }
 
 TEST_F(SceneFile, RefusesWhatIsNotToml) {
