@@ -279,7 +279,7 @@ def _default(key):
 
 
 def _title(path):
-    lists = ("material", "object", "collider", "object.part", "object.handle", "object.load", "collision.pair", "attachment")
+    lists = ("material", "object", "collider", "object.part", "object.handle", "object.load", "rigid", "rigid.load", "collision.pair", "attachment")
     return f"[[{path}]]" if path in lists else f"[{path}]"
 
 
@@ -297,7 +297,7 @@ def page(root):
         if not path:
             continue
         parts += [f"## {_title(path)}\n", "| key | value | default | allowed | |", "| --- | --- | --- | --- | --- |"]
-        for key in keys.values():
+        for key in sorted(keys.values(), key=lambda key: not key.required):
             value = " or ".join(f'`"{name}"`' for name in key.choices) or key.type
             if key.is_table:
                 value = f"[{key.type}](#{re.sub(r'[^a-z_]', '', _join(path, key.name))})"

@@ -134,8 +134,23 @@ class Start:
 
 
 @dataclass(slots=True)
+class Rigid:
+    """What a rigid object has where its shape and the density of its material do not say it."""
+
+    #: [kg], > 0; None: by density
+    mass: float | None = None
+    #: about the centre of mass, along the axes of the shape before it is rotated [kg m^2]: each > 0, and none more than
+    #: both others together; None: as for an even density
+    inertia: Vector | None = None
+
+
+@dataclass(slots=True)
 class Object:
-    """One deformable body of a scene."""
+    """One body of a scene: deformable, or with `rigid` a rigid one.
+
+    A rigid object is of the shape's closed surface, for the solver "implicit". Of its material density, friction, thickness,
+    contact_stiffness and restitution count; it has no mesher, start, parts, pins and handles.
+    """
 
     name: str
     shape: Shape
@@ -167,6 +182,8 @@ class Object:
     #: the axis of the shape that points up in the scene before it is rotated; None: the scene's for boxes, meshes and
     #: files; "y" for glTF files and the other shapes
     up: Literal["x", "y", "z"] | None = None
+    #: None: the object is deformable
+    rigid: Rigid | None = None
     line: int = field(default=0, repr=False)
     pins_line: int = field(default=0, repr=False)
 

@@ -14,7 +14,7 @@ from typing import Any, Literal, Union, cast
 from . import _gelatin
 from .arguments import texts
 from .errors import InvalidInput
-from .objects import AttachedLine, AttachedPoint, Attachment, Camera, Collider, Object
+from .objects import AttachedLine, AttachedPoint, Attachment, Camera, Collider, Object, Rigid
 from .shapes import File, Plane, Region, Shape, Vector
 
 
@@ -164,6 +164,27 @@ class Scene:
         added = Object(name, shape, material, **fields)
         self.objects.append(added)
         return added
+
+    def add_rigid(
+        self,
+        name: str,
+        shape: Union[Shape, str, os.PathLike[str]],
+        material: Union[str, Material, None] = None,
+        *,
+        mass: float | None = None,
+        inertia: Vector | None = None,
+        **fields: Any,
+    ) -> Object:
+        """Adds a rigid body: an object with `rigid`, as of [[rigid]] in scene files. Other arguments are those of `add`.
+
+        mass: [kg], > 0; None: by the density of its material.
+        inertia: about the centre of mass, along the axes of the shape before it is rotated [kg m^2], each > 0, and none more
+            than both others together; None: as for an even density.
+
+        `validate` raises InvalidInput for other values, for a mesher, start, parts, pins or handles, which a rigid body has
+        not, and for another solver than "implicit".
+        """
+        return self.add(name, shape, material=material, rigid=Rigid(mass, inertia), **fields)
 
     def add_collider(self, shape: Union[Plane, Shape, str, os.PathLike[str], None] = None, **fields: Any) -> Collider:
         """Adds a collider, with the scene's friction and restitution where `fields` does not say.

@@ -22,9 +22,9 @@ from .shapes import File, Mesh
 
 #: Keys of scene files whose fields have other names in Python.
 FIELDS = {
-    "Scene": {"material": "materials", "object": "objects", "collider": "colliders", "attachment": "attachments"},
+    "Scene": {"material": "materials", "object": "objects", "rigid": "objects", "collider": "colliders", "attachment": "attachments"},
     "CollisionSettings": {"pair": "pairs"},
-    "Object": {"handle": "handles", "load": "loads", "part": "parts"},
+    "Object": {"handle": "handles", "load": "loads", "part": "parts", "mass": "rigid.mass", "inertia": "rigid.inertia"},
     "Load": {"from": "start", "force": "kind.sum", "traction": "kind.stress", "pressure": "kind.pressure"},
     "Attachment": {"region": "where", "point": "where.at", "line": "where"},
     "Sphere": {"sphere": "radius"},
@@ -221,6 +221,10 @@ def find(scene: Scene, key: str) -> tuple[Any, str]:
             for field in names[part].split("."):
                 owner = value if value is not None else owner
                 value = getattr(owner, field, None)
+            if not place and part in ("object", "rigid"):  # both are in Scene.objects
+                value = [o for o in scene.objects if (o.rigid is not None) == (part == "rigid")]
+                if not value:
+                    raise InvalidInput(f"vary: {key}: the scene has no [[{part}]]")
         elif _is_list_of_tables(value):
             owner, field, value = None, "", _element(value, part, key, place)
         else:

@@ -128,11 +128,21 @@ struct Fields<StartDescription> {
 };
 
 template <>
+struct Fields<RigidDescription> {
+    static constexpr const char* kClass = "Rigid";
+    static void visit(RigidDescription& r, auto&& field) {
+        auto& [mass, inertia] = r;
+        field("mass", mass);
+        field("inertia", inertia);
+    }
+};
+
+template <>
 struct Fields<ObjectDescription> {
     static constexpr const char* kClass = "Object";
     static void visit(ObjectDescription& o, auto&& field) {
         auto& [name, shape, mesher, material, position, rotation, scale, velocity, spin, start, pins, handles,
-               loads, color, line, parts, skin, up, pins_line] = o;
+               loads, color, line, parts, skin, up, pins_line, rigid] = o;
         field("name", name);
         field("shape", shape);
         field("mesher", mesher);
@@ -152,6 +162,7 @@ struct Fields<ObjectDescription> {
         field("up", up);
         field("line", line);
         field("pins_line", pins_line);
+        field("rigid", rigid);
     }
 };
 

@@ -52,8 +52,9 @@ nb::dict scene_defaults() {
     return defaults_of<SimulationSettings, MaterialPair, CollisionSettings, SpringKinds, Material,
                        SphereShape, BoxShape, CapsuleShape, TextShape, MesherSettings, Keyframe,
                        DragDescription, HandleDescription, ForceLoad, TractionLoad, PressureLoad,
-                       LoadDescription, PartDescription, StartDescription, ObjectDescription, PlaneCollider,
-                       ColliderDescription, AttachmentDescription, CameraDescription, Scene>();
+                       LoadDescription, PartDescription, StartDescription, RigidDescription,
+                       ObjectDescription, PlaneCollider, ColliderDescription, AttachmentDescription,
+                       CameraDescription, Scene>();
 }
 
 }  // namespace gelatin::python

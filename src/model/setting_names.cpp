@@ -50,6 +50,10 @@ const char* name_of(Axis axis) {
     return axis == Axis::x ? "x" : axis == Axis::y ? "y" : "z";
 }
 
+const char* table_name(const ObjectDescription& object) {
+    return object.rigid ? "rigid" : "object";
+}
+
 const std::vector<std::string>& spring_kind_names() {
     static const std::vector<std::string> names{"structural", "shear", "flex"};
     return names;

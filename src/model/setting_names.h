@@ -15,6 +15,9 @@ const char* name_of(CollisionDetection detection);
 const char* name_of(CollisionResponse response);
 const char* name_of(Axis axis);
 
+/// The tables of scene files that such objects are in: "object" or "rigid".
+const char* table_name(const ObjectDescription& object);
+
 const std::vector<std::string>& spring_kind_names();
 std::vector<std::string> kind_names(const SpringKinds& kinds);
 

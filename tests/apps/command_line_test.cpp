@@ -49,7 +49,7 @@ TEST_F(CommandLine, NamesFileLineKeyAndValueOfAWrongScene) {
     write("wrong.toml", "[simulation]\nframe_rate = 0\n");
     expect_error({"run", "wrong.toml"}, 2, "wrong.toml:2: simulation.frame_rate = 0: must be greater than 0");
     write("empty.toml", "");
-    expect_error({"run", "empty.toml"}, 2, "empty.toml: has no objects: add an [[object]]");
+    expect_error({"run", "empty.toml"}, 2, "empty.toml: has no objects: add an [[object]] or a [[rigid]]");
     expect_error({"run", "nothing.toml"}, 2, "nothing.toml: no such file");
     expect_error({"run", "cube.toml", "--set", "material.jelly.density=-3"}, 2,
                  "--set material.jelly.density=-3: material.jelly.density = -3: must be greater than 0");

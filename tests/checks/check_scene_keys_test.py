@@ -61,14 +61,16 @@ class CheckSceneKeys(unittest.TestCase):
     def test_keys_of_every_kind_of_table_are_followed(self):
         self.assert_missing_if_renamed("scene_file_drives.cpp", "interpolation", "object.handle", "collider")
         self.assert_missing_if_renamed("scene_file_drives.cpp", "release", "object.handle")
-        self.assert_missing_if_renamed("scene_file_drives.cpp", "until", "object.load")
+        self.assert_missing_if_renamed("scene_file_drives.cpp", "until", "object.load", "rigid.load")
         self.assert_missing_if_renamed("scene_file_drives.cpp", "break_force", "attachment")
         self.assert_missing_if_renamed("scene_file_drives.cpp", "line", "attachment")
-        self.assert_missing_if_renamed("scene_file_copies.cpp", "jitter", "object.copies")
+        self.assert_missing_if_renamed("scene_file_copies.cpp", "jitter", "object.copies", "rigid.copies")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "scatter", "object.start")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "cell_size", "object.mesher")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "segments", "object.shape", "collider.shape")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "surface_velocity", "collider")
+        self.assert_missing_if_renamed("scene_file_bodies.cpp", "spin", "object", "rigid")
+        self.assert_missing_if_renamed("scene_file_bodies.cpp", "inertia", "rigid")
         for table in ("object.pins", "object.part.region", "object.handle.region", "object.load.region", "attachment.region"):
             self.assert_refused(f"{CODE}/scene_file_region.cpp", 'read("offset"', 'read("novel"', f"[{table}]: 'novel'")
 
@@ -98,6 +100,9 @@ class SceneKeys(unittest.TestCase):
         self.assertEqual(tables["object.shape"]["segments"].allowed, "from 1 to 1000")
         self.assertEqual(tables["object.part"]["region"].alternatives, ["region", "attribute"])
         self.assertEqual(tables["object.load"]["until"].type, "number")
+        self.assertEqual((tables["rigid"]["mass"].type, tables["rigid"]["mass"].allowed), ("number", "greater than 0"))
+        self.assertEqual(tables["rigid"]["inertia"].type, "[x, y, z]")
+        self.assertNotIn("mesher", tables["rigid"])
         attachment = tables["attachment"]
         self.assertEqual((attachment["compliance"].default, attachment["compliance"].allowed), ("0.0", "0 or more"))
         self.assertEqual((attachment["point"].type, attachment["line"].type), ("[x, y, z]", "[[x, y, z], [x, y, z]]"))

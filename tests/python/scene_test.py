@@ -69,6 +69,7 @@ def scene_with_everything():
         gelatin.File("a.obj"),
     ):
         scene.add("o", shape, material="a")
+    scene.add_rigid("r", gelatin.Box(), "a", mass=2.0, inertia=(1.0, 2.0, 2.5))
     scene.add_collider(gelatin.Plane((1.0, 0.0, 0.0), 0.5))
     scene.colliders.append(
         gelatin.Collider(
@@ -195,6 +196,9 @@ def test_vectors_may_be_arrays():
         (lambda s: setattr(s.objects[1].shape, "radius", None), "object.o.shape.radius = None: must be a number"),
         (lambda s: setattr(s.objects[0], "pins", "top"), "object.o.pins = 'top': must be a list"),
         (lambda s: s.objects[0].pins.append(3), "object.o.pins[3] = 3: must be one of BoxRegion, SphereRegion, HalfSpaceRegion"),
+        (lambda s: setattr(s.objects[5].rigid, "mass", "much"), "object.r.rigid.mass = 'much': must be a number"),
+        (lambda s: setattr(s.objects[5].rigid, "inertia", 3), "object.r.rigid.inertia = 3: must be three numbers"),
+        (lambda s: setattr(s.objects[5], "rigid", True), "object.r.rigid = True: must be a Rigid"),
         (lambda s: setattr(s.objects[0], "skin", "no"), "object.o.skin = 'no': must be True or False"),
         (lambda s: setattr(s.colliders[0], "position", ()), "colliders[0].position = (): must be three numbers"),
         (lambda s: setattr(s.colliders[1], "position", ()), "collider.belt.position = (): must be three numbers"),
@@ -260,6 +264,65 @@ def test_add_takes_paths_and_materials():
     scene.add("other", gelatin.Sphere())
     with pytest.raises(gelatin.InvalidInput, match='object.other: needs "material": one of jelly or rubber'):
         scene.validate()
+
+
+def test_rigid_bodies_are_added_as_objects_are():
+    scene = gelatin.Scene()
+    wood = scene.add_material("wood")
+    crate = scene.add_rigid("crate", "scenes/meshes/crate.obj", wood, mass=3, position=(0, 2, 0), color=(1, 0, 0))
+    assert crate == gelatin.Object(
+        "crate", gelatin.File("scenes/meshes/crate.obj"), "wood", position=(0, 2, 0), color=(1, 0, 0), rigid=gelatin.Rigid(mass=3)
+    )
+    assert scene.add_rigid("stone", gelatin.Sphere()).rigid == gelatin.Rigid()
+    assert scene.add_rigid("plate", gelatin.Box(), material="wood", inertia=np.ones(3)).material == "wood"
+    assert scene.add("ball", gelatin.Sphere()).rigid is None
+    assert scene.objects[0] is crate and len(scene.objects) == 4
+    scene.add_attachment(crate, "stone", gelatin.AttachedPoint((0.0, 1.0, 0.0)))
+    scene.validate()
+    with pytest.raises(TypeError):
+        scene.add_rigid("other", gelatin.Sphere(), weight=3)
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (lambda s: setattr(s.objects[0].rigid, "mass", 0), "rigid.crate.mass = 0: must be greater than 0"),
+        (lambda s: setattr(s.objects[0].rigid, "inertia", (1, 1, 3)), "rigid.crate.inertia[2] = 3: must be at most the sum of the other two, 2"),
+        (lambda s: setattr(s.objects[0], "scale", -1), "rigid.crate.scale = -1: must be greater than 0"),
+        (lambda s: setattr(s.simulation, "solver", "rk4"), 'rigid.crate: needs simulation.solver = "implicit"'),
+        (
+            lambda s: s.objects[0].pins.append(gelatin.SphereRegion((0, 0, 0), 1)),
+            "rigid.crate.pins: a rigid body has none: an [[attachment]] holds it, and a [[collider]] follows keyframes",
+        ),
+        (
+            lambda s: setattr(s.objects[0].mesher, "nodes", 100),
+            "rigid.crate.mesher: a rigid body has none: it does not deform, and has no tets",
+        ),
+    ],
+)
+def test_wrong_values_of_rigid_bodies_are_named(change, message):
+    scene = gelatin.Scene()
+    scene.add_material("wood")
+    scene.add_rigid("crate", gelatin.Box())
+    change(scene)
+    with pytest.raises(gelatin.InvalidInput) as caught:
+        scene.validate()
+    assert str(caught.value) == message
+
+
+def test_rigid_bodies_of_files(tmp_path):
+    file = tmp_path / "rigid.toml"
+    file.write_text(
+        '[[material]]\nname = "m"\n[[rigid]]\nname = "a"\nshape = { sphere = 1 }\n[[object]]\nname = "b"\nshape = { sphere = 1 }\n'
+        '[[rigid]]\nname = "c"\nshape = { sphere = 1 }\nmass = 5\n'
+    )
+    scene = gelatin.load(file, {"rigid.a.mass": 2, "rigid.c.inertia": (1, 1, 1)})
+    assert [(o.name, o.rigid, o.line) for o in scene.objects] == [
+        ("a", gelatin.Rigid(2.0), 3),
+        ("b", None, 6),
+        ("c", gelatin.Rigid(5.0, (1.0, 1.0, 1.0)), 9),
+    ]
+    assert _gelatin.same(scene) == scene
 
 
 def test_attachments_are_added_by_names_or_by_what_has_them():

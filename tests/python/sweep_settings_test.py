@@ -79,6 +79,7 @@ def scene_with_names():
     ball = scene.objects[0]
     ball.handles.append(gelatin.Handle(gelatin.HalfSpaceRegion((0, 1, 0), 1.6), [gelatin.Keyframe(), gelatin.Keyframe(1.0)]))
     ball.loads.append(gelatin.Load(gelatin.SphereRegion((0, 2, 0), 0.2), gelatin.Pressure(5.0)))
+    scene.add_rigid("crate", gelatin.Box(), mass=2.0)
     scene.colliders[0].name = "floor"
     scene.add_attachment("ball", "floor", gelatin.AttachedPoint((0.0, 0.0, 0.0)), name="joint")
     return scene
@@ -95,6 +96,9 @@ def scene_with_names():
         ("object.ball.handle.0.keyframes.1.move", [0, 1, 0], lambda s: s.objects[0].handles[0].keyframes[1].move),
         ("object.ball.load.0.pressure", 7.0, lambda s: s.objects[0].loads[0].kind.pressure),
         ("object.ball.load.0.from", 0.5, lambda s: s.objects[0].loads[0].start),
+        ("rigid.crate.mass", 3.0, lambda s: s.objects[1].rigid.mass),
+        ("rigid.0.inertia", [1, 1, 1], lambda s: s.objects[1].rigid.inertia),
+        ("rigid.crate.position", [1, 2, 3], lambda s: s.objects[1].position),
         ("collider.floor.friction", 0.9, lambda s: s.colliders[0].friction),
         ("attachment.joint.compliance", 0.5, lambda s: s.attachments[0].compliance),
         ("attachment.0.point", [0, 1, 0], lambda s: s.attachments[0].where.at),
@@ -131,6 +135,20 @@ def test_wrong_settings_are_one_line(key, message, of_file, tmp_path):
     with pytest.raises(gelatin.InvalidInput, match=message) as caught:
         scene_with(source, {key: -1})
     assert "\n" not in str(caught.value) and "--set" not in str(caught.value)
+
+
+def test_objects_and_rigid_bodies_are_told_apart():
+    scene = scene_with_names()
+    for key, message in (
+        ("object.crate.scale", 'there is no object "crate"; there are ball'),
+        ("rigid.ball.scale", 'there is no rigid "ball"; there are crate'),
+        ("rigid", "must name a value, as rigid.crate does; below it are crate"),
+        ("object.ball.mass", "this object has no mass"),
+    ):
+        with pytest.raises(gelatin.InvalidInput, match=message):
+            find(scene, key)
+    with pytest.raises(gelatin.InvalidInput, match=r"the scene has no \[\[rigid\]\]"):
+        find(falling_ball(), "rigid.crate.mass")
 
 
 def test_every_key_leads_to_a_field():

@@ -31,6 +31,7 @@
 #include "model/elasticity/neo_hookean.h"
 #include "model/elasticity/volume_term.h"
 #include "model/region.h"
+#include "model/setting_names.h"
 #include "model/spring_packing.h"
 #include "model/springs/spring_moduli.h"
 #include "model/springs/springs.h"
@@ -295,8 +296,8 @@ auto with_file(const Scene& scene, const ObjectDescription& object, const Make& 
                                 !std::filesystem::exists(shape->file);
         if (!is_missing) throw;
         throw InvalidInput({scene.file.string(), object.line,
-                            fmt::format("object.{}.shape.file", object.name), shape->file.string(),
-                            error.problem().problem});
+                            fmt::format("{}.{}.shape.file", table_name(object), object.name),
+                            shape->file.string(), error.problem().problem});
     }
 }
 

@@ -7,6 +7,7 @@
 #include "gelatin/error.h"
 #include "model/drive/loads.h"
 #include "model/region.h"
+#include "model/setting_names.h"
 
 namespace gelatin {
 namespace {
@@ -65,7 +66,11 @@ public:
 
 private:
     [[noreturn]] void fail(int line, const std::string& field, const std::string& problem) const {
-        throw InvalidInput({file_.string(), line, "object." + object_.name + "." + field, {}, problem});
+        throw InvalidInput({file_.string(),
+                            line,
+                            fmt::format("{}.{}.{}", table_name(object_), object_.name, field),
+                            {},
+                            problem});
     }
 
     struct Holder {

@@ -153,14 +153,16 @@ Scene read_scene(const std::string& text, const std::filesystem::path& file,
     const auto simulation = reader.table("simulation"), collision = reader.table("collision"),
                camera = reader.table("camera");
     auto materials = reader.tables("material"), objects = reader.tables("object"),
-         colliders = reader.tables("collider"), attachments = reader.tables("attachment");
+         rigids = reader.tables("rigid"), colliders = reader.tables("collider"),
+         attachments = reader.tables("attachment");
     reader.finish();  // a misspelt section first: what it should have held is missing elsewhere
 
     if (simulation) scene.simulation = read_simulation(*simulation);
     if (collision) scene.collision = read_collision(*collision);
     if (camera) scene.camera = read_camera(*camera);
     scene.materials = read_materials(std::move(materials));
-    ReadObjects read = read_objects(std::move(objects), scene.materials, file.parent_path());
+    ReadObjects read = merge_objects(read_objects(std::move(objects), scene.materials, file.parent_path()),
+                                     read_rigids(std::move(rigids), scene.materials, file.parent_path()));
     scene.objects = std::move(read.objects);
     scene.colliders = read_colliders(std::move(colliders), scene.collision, file.parent_path());
     scene.attachments = read_attachments(std::move(attachments));

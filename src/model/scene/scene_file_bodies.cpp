@@ -1,9 +1,13 @@
 #include "model/scene/scene_file_bodies.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "model/scene/field_path.h"
 #include "model/scene/scene_file_copies.h"
 #include "model/scene/scene_file_drives.h"
 #include "model/scene/scene_file_region.h"
+#include "model/scene/validate_bodies.h"
 
 namespace gelatin {
 namespace {
@@ -102,39 +106,62 @@ PartDescription read_part(TableReader& reader, const std::vector<Material>& mate
     return part;
 }
 
-// The object, or its copies.
-std::vector<ObjectDescription> read_object(TableReader& reader, const std::vector<Material>& materials,
-                                           const std::filesystem::path& folder) {
+// What deformable and rigid objects share.
+// @param table the name of the table, for messages
+ObjectDescription read_body(TableReader& reader, const std::string& table,
+                            const std::vector<Material>& materials, const std::filesystem::path& folder) {
     ObjectDescription object;
     object.line = reader.line();
     reader.require({"name", "shape"});
     reader.read("name", object.name);
-    if (is_plain_name(object.name)) reader.set_path("object." + object.name);
+    if (is_plain_name(object.name)) reader.set_path(table + "." + object.name);
     object.shape = read_shape(*reader.table("shape"), folder);
-    if (const auto mesher = reader.table("mesher")) object.mesher = read_mesher(*mesher);
     object.material = read_material_name(reader, materials);
-    for (TableReader& part : reader.tables("part")) object.parts.push_back(read_part(part, materials));
     reader.read("position", object.position);
     reader.read("rotation", object.rotation);
     object.up = read_up(reader);
     reader.read("scale", object.scale);
     reader.read("velocity", object.velocity);
     reader.read("spin", object.spin);
-    if (const auto start = reader.table("start")) object.start = read_start(*start);
-    object.pins_line = reader.line_of("pins");
-    for (TableReader& pin : reader.tables("pins")) object.pins.push_back(read_region(pin));
-    for (TableReader& handle : reader.tables("handle")) object.handles.push_back(read_handle(handle));
     for (TableReader& load : reader.tables("load")) object.loads.push_back(read_load(load));
     if (reader.has("color")) {
         glm::dvec3 color{};
         reader.read("color", color);
         object.color = color;
     }
-    reader.read("skin", object.skin);
+    return object;
+}
+
+// The object, or its copies. Finishes the table.
+std::vector<ObjectDescription> read_copies_of(TableReader& reader, const ObjectDescription& object) {
     const auto copies = reader.table("copies");
     reader.finish();
     if (copies) return read_copies(*copies, object);
     return {object};
+}
+
+std::vector<ObjectDescription> read_object(TableReader& reader, const std::vector<Material>& materials,
+                                           const std::filesystem::path& folder) {
+    ObjectDescription object = read_body(reader, "object", materials, folder);
+    if (const auto mesher = reader.table("mesher")) object.mesher = read_mesher(*mesher);
+    for (TableReader& part : reader.tables("part")) object.parts.push_back(read_part(part, materials));
+    if (const auto start = reader.table("start")) object.start = read_start(*start);
+    object.pins_line = reader.line_of("pins");
+    for (TableReader& pin : reader.tables("pins")) object.pins.push_back(read_region(pin));
+    for (TableReader& handle : reader.tables("handle")) object.handles.push_back(read_handle(handle));
+    reader.read("skin", object.skin);
+    return read_copies_of(reader, object);
+}
+
+std::vector<ObjectDescription> read_rigid(TableReader& reader, const std::vector<Material>& materials,
+                                          const std::filesystem::path& folder) {
+    ObjectDescription object = read_body(reader, "rigid", materials, folder);
+    RigidDescription& rigid = object.rigid.emplace();
+    reader.read("mass", rigid.mass);
+    if (reader.has("inertia")) reader.read("inertia", rigid.inertia.emplace(0.0));
+    reader.refuse({"pins", "handle"}, kHoldsNoNodes);
+    reader.refuse({"mesher", "part", "start", "skin"}, kHasNoTets);
+    return read_copies_of(reader, object);
 }
 
 ColliderDescription read_collider(TableReader& reader, const CollisionSettings& collision,
@@ -170,18 +197,41 @@ ColliderDescription read_collider(TableReader& reader, const CollisionSettings& 
     return collider;
 }
 
+// @param table the index of the table that they are in
+void append(std::vector<ObjectDescription> objects, std::size_t table, ReadObjects& read) {
+    read.tables.insert(read.tables.end(), objects.size(), table);
+    std::move(objects.begin(), objects.end(), std::back_inserter(read.objects));
+}
+
 }  // namespace
 
 ReadObjects read_objects(std::vector<TableReader> tables, const std::vector<Material>& materials,
                          const std::filesystem::path& folder) {
     ReadObjects read;
-    for (std::size_t t = 0; t < tables.size(); ++t) {
-        for (ObjectDescription& object : read_object(tables[t], materials, folder)) {
-            read.objects.push_back(std::move(object));
-            read.tables.push_back(t);
-        }
-    }
+    for (std::size_t t = 0; t < tables.size(); ++t)
+        append(read_object(tables[t], materials, folder), t, read);
     return read;
+}
+
+ReadObjects read_rigids(std::vector<TableReader> tables, const std::vector<Material>& materials,
+                        const std::filesystem::path& folder) {
+    ReadObjects read;
+    for (std::size_t t = 0; t < tables.size(); ++t) append(read_rigid(tables[t], materials, folder), t, read);
+    return read;
+}
+
+ReadObjects merge_objects(ReadObjects deformable, ReadObjects rigid) {
+    ReadObjects merged;
+    std::size_t d = 0, r = 0;
+    while (d < deformable.tables.size() || r < rigid.tables.size()) {
+        const bool is_rigid = d == deformable.tables.size() ||
+                              (r < rigid.tables.size() && rigid.objects[r].line < deformable.objects[d].line);
+        ReadObjects& from = is_rigid ? rigid : deformable;
+        std::size_t& next = is_rigid ? r : d;
+        merged.objects.push_back(std::move(from.objects[next]));
+        merged.tables.push_back(from.tables[next++]);
+    }
+    return merged;
 }
 
 std::vector<ColliderDescription> read_colliders(std::vector<TableReader> tables,

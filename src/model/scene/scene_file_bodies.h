@@ -10,7 +10,7 @@ namespace gelatin {
 
 struct ReadObjects {
     std::vector<ObjectDescription> objects;
-    std::vector<std::size_t> tables;  ///< of each object, the table that it or its original is in
+    std::vector<std::size_t> tables;  ///< of each object, the table of its kind that it or its original is in
 };
 
 /// @param tables the [[object]] tables
@@ -18,6 +18,11 @@ struct ReadObjects {
 /// @throws InvalidInput for what is no object: keys and types.
 ReadObjects read_objects(std::vector<TableReader> tables, const std::vector<Material>& materials,
                          const std::filesystem::path& folder);
+/// The same of the [[rigid]] tables.
+ReadObjects read_rigids(std::vector<TableReader> tables, const std::vector<Material>& materials,
+                        const std::filesystem::path& folder);
+/// Both kinds in the order of their lines.
+ReadObjects merge_objects(ReadObjects deformable, ReadObjects rigid);
 
 /// @param tables the [[collider]] tables
 /// @param collision gives friction and restitution where a collider is silent

@@ -13,7 +13,7 @@ WhenBlocked read_when_blocked(TableReader& reader);
 /// An [[object.handle]] table, which it finishes.
 HandleDescription read_handle(TableReader reader);
 
-/// An [[object.load]] table, which it finishes.
+/// An [[object.load]] or [[rigid.load]] table, which it finishes.
 LoadDescription read_load(TableReader reader);
 
 /// The [[attachment]] tables.

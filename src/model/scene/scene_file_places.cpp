@@ -21,7 +21,8 @@ const toml::node* find(const toml::node& node, const FieldStep& step) {
 FieldPath ScenePlaces::path_in_file(const FieldPath& field) const {
     FieldPath path;
     for (const FieldStep& step : field.steps()) {
-        const bool is_object = path.steps().empty() && std::string_view(step.key) == "object";
+        const std::string_view key = step.key;
+        const bool is_object = path.steps().empty() && (key == "object" || key == "rigid");
         path = path / step.key;
         if (step.index) path = path[is_object ? object_tables_[*step.index] : *step.index];
     }

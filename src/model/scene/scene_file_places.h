@@ -14,7 +14,8 @@ namespace gelatin {
 /// Finds the fields of a scene in the document that it was read from. Refers to both.
 class ScenePlaces {
 public:
-    /// @param object_tables of each object, the index of the [[object]] table that it or its original is in
+    /// @param object_tables of each object, the index of the [[object]] or [[rigid]] table that it or its
+    ///   original is in
     ScenePlaces(const toml::table& document, const Scene& scene, std::vector<std::size_t> object_tables)
         : document_(document), scene_(scene), object_tables_(std::move(object_tables)) {}
 

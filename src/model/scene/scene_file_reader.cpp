@@ -310,6 +310,11 @@ void TableReader::fail_choice(const char* key, const std::string& name,
     fail(key, fmt::format("must be {}{}", join_names(names, "or"), suggestion(name, names)));
 }
 
+void TableReader::refuse(const std::vector<std::string>& keys, const std::string& problem) const {
+    const std::vector<std::string> present = present_of(keys);
+    if (!present.empty()) fail(present.front(), problem);
+}
+
 void TableReader::finish() const {
     const toml::key* first = nullptr;
     for (auto&& [key, node] : *table_) {

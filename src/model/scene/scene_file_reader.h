@@ -101,6 +101,8 @@ public:
     const toml::node* find(const char* key);
 
     [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
+    /// Fails at the first of `keys` that is there. They do not count as known ones.
+    void refuse(const std::vector<std::string>& keys, const std::string& problem) const;
     /// @throws InvalidInput for the first key in the file that no getter asked for.
     void finish() const;
 

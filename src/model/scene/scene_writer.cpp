@@ -160,6 +160,7 @@ Table table_of(const ObjectDescription& object, const std::filesystem::path& fol
         .add_unless(usual.start.scatter, "scatter", object.start.scatter);
     if (!start.is_empty()) table.add_text("start", start.in_line());
     if (!object.pins.empty()) table.add_text("pins", list_of_tables(object.pins));
+    if (object.rigid) table.add("mass", object.rigid->mass).add("inertia", object.rigid->inertia);
     return table.add("color", object.color).add_unless(usual.skin, "skin", object.skin);
 }
 
@@ -242,7 +243,7 @@ Table table_of(const AttachmentDescription& attachment) {
 std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
     std::string text;
     if (scene.up != Axis::y) text = Table().add("up", name_of(scene.up)).lines();
-    const auto add = [&](const char* head, const Table& table) {
+    const auto add = [&](const std::string& head, const Table& table) {
         text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", head, table.lines());
     };
     add("[simulation]", table_of(scene.simulation));
@@ -256,10 +257,11 @@ std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
     }
     for (const Material& material : scene.materials) add("[[material]]", table_of(material));
     for (const ObjectDescription& object : scene.objects) {
-        add("[[object]]", table_of(object, folder));
+        const std::string name = table_name(object);
+        add("[[" + name + "]]", table_of(object, folder));
         for (const PartDescription& part : object.parts) add("[[object.part]]", table_of(part));
         for (const HandleDescription& handle : object.handles) add("[[object.handle]]", table_of(handle));
-        for (const LoadDescription& load : object.loads) add("[[object.load]]", table_of(load));
+        for (const LoadDescription& load : object.loads) add("[[" + name + ".load]]", table_of(load));
     }
     for (const ColliderDescription& collider : scene.colliders)
         add("[[collider]]", table_of(collider, folder));

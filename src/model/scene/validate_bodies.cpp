@@ -121,8 +121,11 @@ private:
 
 class ObjectCheck {
 public:
-    ObjectCheck(const ValueChecks& checks, const std::vector<Material>& materials, bool has_contact)
-        : checks_(checks), materials_(materials), has_contact_(has_contact) {}
+    ObjectCheck(const ValueChecks& checks, const Scene& scene)
+        : checks_(checks),
+          materials_(scene.materials),
+          has_contact_(scene.has_contact()),
+          solver_(scene.simulation.solver) {}
 
     void run(const FieldPath& field, const ObjectDescription& object) const {
         checks_.check_text(field / "name", object.name);
@@ -145,9 +148,41 @@ public:
         for (std::size_t l = 0; l < object.loads.size(); ++l)
             check_load(checks_, (field / "load")[l], object.loads[l]);
         checks_.check(field / "color", object.color, kFraction);
+        if (object.rigid) check_rigid(field, object, *object.rigid);
     }
 
 private:
+    void check_rigid(const FieldPath& field, const ObjectDescription& object,
+                     const RigidDescription& rigid) const {
+        if (!is_implicit(solver_)) checks_.fail(field, "", "needs simulation.solver = \"implicit\"");
+        checks_.check(field / "mass", rigid.mass, kPositive);
+        checks_.check(field / "inertia", rigid.inertia, kPositive);
+        if (rigid.inertia) check_inertia(field / "inertia", *rigid.inertia);
+        const ObjectDescription usual;
+        const auto refuse = [&](const char* key, bool is_there, const char* problem) {
+            if (is_there) checks_.fail(field / key, "", problem);
+        };
+        refuse("pins", !object.pins.empty(), kHoldsNoNodes);
+        refuse("handle", !object.handles.empty(), kHoldsNoNodes);
+        refuse("mesher", object.mesher != usual.mesher, kHasNoTets);
+        refuse("part", !object.parts.empty(), kHasNoTets);
+        refuse("start",
+               object.start.scale != usual.start.scale || object.start.scatter != usual.start.scatter,
+               kHasNoTets);
+        refuse("skin", object.skin != usual.skin, kHasNoTets);
+    }
+
+    // Ixx + Iyy - Izz is twice the integral of density * z^2, and so on.
+    void check_inertia(const FieldPath& field, const glm::dvec3& inertia) const {
+        constexpr double kRounding = 1e-12;  // of a flat body one is the sum of the others
+        for (int k = 0; k < 3; ++k) {
+            const double others = inertia[(k + 1) % 3] + inertia[(k + 2) % 3];
+            if (inertia[k] <= (1.0 + kRounding) * others) continue;
+            checks_.fail(field[static_cast<std::size_t>(k)], text_of(inertia[k]),
+                         fmt::format("must be at most the sum of the other two, {}", others));
+        }
+    }
+
     void check_mesher(const FieldPath& field, const MesherSettings& mesher) const {
         checks_.check(field / "quality", mesher.quality, kQuality);
         checks_.check(field / "max_volume", mesher.max_volume, kPositive);
@@ -208,21 +243,22 @@ private:
     const ValueChecks& checks_;
     const std::vector<Material>& materials_;
     bool has_contact_;
+    SolverKind solver_;
 };
 
 }  // namespace
 
 void check_objects(const ValueChecks& checks, const Scene& scene) {
-    const ObjectCheck check(checks, scene.materials, scene.has_contact());
+    const ObjectCheck check(checks, scene);
     std::unordered_map<std::string_view, int> lines;  // by name
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
         const ObjectDescription& object = scene.objects[o];
-        const FieldPath field("object", o);
+        const FieldPath field(table_name(object), o);
         check.run(field, object);
         const auto [taken, is_new] = lines.emplace(object.name, object.line);
         if (!is_new) checks.fail(field / "name", text_of(object.name), name_taken("object", taken->second));
     }
-    if (scene.objects.empty()) checks.fail({}, "", "has no objects: add an [[object]]");
+    if (scene.objects.empty()) checks.fail({}, "", "has no objects: add an [[object]] or a [[rigid]]");
 }
 
 void check_colliders(const ValueChecks& checks, const Scene& scene) {

@@ -10,6 +10,11 @@ void check_colliders(const ValueChecks& checks, const Scene& scene);
 
 inline constexpr const char* kNeedsContact = "needs collision.response = \"contact\"";
 
+// Of what a rigid object has not, in files and in code.
+inline constexpr const char* kHoldsNoNodes =
+    "a rigid body has none: an [[attachment]] holds it, and a [[collider]] follows keyframes";
+inline constexpr const char* kHasNoTets = "a rigid body has none: it does not deform, and has no tets";
+
 /// A region of an object's pin, handle, load or part, or of an attachment.
 void check_region(const ValueChecks& checks, const FieldPath& field, const Region& region);
 void check_keyframes(const ValueChecks& checks, const FieldPath& field, const std::vector<Keyframe>& keys);

@@ -76,6 +76,9 @@ TEST(CheckRegions, RefusesRegionsThatHoldNothing) {
     object.loads = {load_on(kCorner, 14, TractionLoad{})};
     EXPECT_NE(problem_with(object).find("scene.toml:14: object.cube.load[0].region: holds no whole face"),
               std::string::npos);
+    object.rigid.emplace();
+    EXPECT_NE(problem_with(object).find("scene.toml:14: rigid.cube.load[0].region: holds no whole face"),
+              std::string::npos);
 }
 
 TEST(CheckRegions, RefusesNodesThatAreHeldTwice) {

@@ -185,11 +185,12 @@ TEST_F(SceneFile, RefusesAMissingFile) {
 }
 
 TEST_F(SceneFile, RefusesAnEmptyFile) {
-    EXPECT_EQ(error(""), "scene.toml: has no objects: add an [[object]]");
+    EXPECT_EQ(error(""), "scene.toml: has no objects: add an [[object]] or a [[rigid]]");
 }
 
 TEST_F(SceneFile, RefusesASceneWithoutObjects) {
-    EXPECT_EQ(error("[simulation]\nframes = 3\n"), "scene.toml: has no objects: add an [[object]]");
+    EXPECT_EQ(error("[simulation]\nframes = 3\n"),
+              "scene.toml: has no objects: add an [[object]] or a [[rigid]]");
 }
 
 TEST_F(SceneFile, RefusesWhatIsNotToml) {

@@ -202,6 +202,43 @@ TEST(SceneWriter, WritesWhichHandlesStop) {
     EXPECT_THAT(read_file(folder.path() / "copy.toml"), ::testing::HasSubstr(handle));
 }
 
+// In the order of the scene.
+TEST(SceneWriter, WritesRigidBodiesAmongObjects) {
+    constexpr const char* kObjects = R"([[rigid]]
+name = "crate"
+shape = { box = [1, 2, 3], segments = [1, 1, 1] }
+material = "m"
+scale = 1.5
+rotation = [10, 20, 30]
+up = "x"
+position = [0, 2, 0]
+velocity = [1, 0, 0]
+spin = [0, 90, 0]
+mass = 20
+inertia = [1, 2, 2.5]
+color = [0.1, 0.2, 0.3]
+
+[[rigid.load]]
+region = { sphere = [0, 2, 0], radius = 9 }
+force = [0, 1, 0]
+
+[[object]]
+name = "ball"
+shape = { sphere = 1, frequency = 10 }
+material = "m"
+
+[[rigid]]
+name = "stone"
+shape = { file = "stone.obj" }
+material = "m"
+)";
+    const TemporaryFolder folder;
+    write_file(folder.path() / "scene.toml", "[[material]]\nname = 'm'\n" + std::string(kObjects));
+    save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
+    const std::string copy = read_file(folder.path() / "copy.toml");
+    EXPECT_EQ(copy.substr(copy.find("[[rigid]]")), kObjects);
+}
+
 TEST(SceneWriter, WritesAttachments) {
     constexpr const char* kAttachments = R"([[attachment]]
 name = "a \"hook\""

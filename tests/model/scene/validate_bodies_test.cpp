@@ -202,6 +202,97 @@ const Rule kObjectRules[] = {
      "object.ball.load[0].until = 1: must be greater than from, 2"},
 };
 
+class RigidRule : public RuleTest {};
+
+TEST_P(RigidRule, HoldsInFilesAndInCode) {
+    const Rule& rule = GetParam();
+    const auto breaks = [&](Scene& scene) {
+        scene.objects[0].rigid.emplace();
+        rule.breaks(scene);
+    };
+    EXPECT_EQ(code_error({rule.name, rule.lines, breaks, rule.problem}), rule.problem);
+    EXPECT_EQ(file_error(std::string(kMaterials) + "[[rigid]]\n" + rule.lines), rule.problem);
+}
+
+const Rule kRigidRules[] = {
+    {"name", "name = ''\nshape = {sphere = 1}", BREAKS(s.objects[0].name = ""),
+     "rigid[0].name = \"\": must not be empty"},
+    {"shape", "name = 'ball'\nshape = {sphere = -1}", BREAKS(s.objects[0].shape = SphereShape{-1}),
+     "rigid.ball.shape.sphere = -1: must be greater than 0"},
+    {"material", BALL "material = 'jely'", BREAKS(s.objects[0].material = "jely"),
+     "rigid.ball.material = \"jely\": no such material (did you mean \"jelly\"?); there is jelly"},
+    {"position", BALL "position = [0, inf, 0]", BREAKS(s.objects[0].position.y = kInfinite),
+     "rigid.ball.position[1] = inf: must be finite"},
+    {"mass", BALL "mass = 0", BREAKS(s.objects[0].rigid->mass = 0),
+     "rigid.ball.mass = 0: must be greater than 0"},
+    {"mass_finite", BALL "mass = nan", BREAKS(s.objects[0].rigid->mass = kNan),
+     "rigid.ball.mass = nan: must be finite"},
+    {"inertia", BALL "inertia = [1, -1, 1]", BREAKS(s.objects[0].rigid->inertia = glm::dvec3(1, -1, 1)),
+     "rigid.ball.inertia[1] = -1: must be greater than 0"},
+    {"inertia_of_x", BALL "inertia = [4, 1, 2]", BREAKS(s.objects[0].rigid->inertia = glm::dvec3(4, 1, 2)),
+     "rigid.ball.inertia[0] = 4: must be at most the sum of the other two, 3"},
+    {"inertia_of_y", BALL "inertia = [1, 4, 2]", BREAKS(s.objects[0].rigid->inertia = glm::dvec3(1, 4, 2)),
+     "rigid.ball.inertia[1] = 4: must be at most the sum of the other two, 3"},
+    {"inertia_of_z", BALL "inertia = [1, 2, 3.5]",
+     BREAKS(s.objects[0].rigid->inertia = glm::dvec3(1, 2, 3.5)),
+     "rigid.ball.inertia[2] = 3.5: must be at most the sum of the other two, 3"},
+    {"load", BALL "[[rigid.load]]\npressure = inf\n" REGION,
+     BREAKS(add_load(s).kind = PressureLoad{kInfinite}), "rigid.ball.load[0].pressure = inf: must be finite"},
+    {"solver", BALL "[simulation]\nsolver = 'rk4'", BREAKS(s.simulation.solver = SolverKind::rk4),
+     "rigid.ball: needs simulation.solver = \"implicit\""},
+};
+
+INSTANTIATE_TEST_SUITE_P(Rigid, RigidRule, testing::ValuesIn(kRigidRules), rule_name);
+
+class ValidateRigid : public RuleTest {
+protected:
+    static std::string error_of(const std::function<void(Scene&)>& breaks) {
+        return code_error({"", "", breaks, ""});
+    }
+    // Of a rigid ball with something else.
+    static std::string rigid_error(const std::function<void(ObjectDescription&)>& change) {
+        return error_of([&](Scene& scene) {
+            scene.objects[0].rigid.emplace();
+            change(scene.objects[0]);
+        });
+    }
+};
+
+// Without contact, too; of a flat body whose moments are rounded: 0.1 + 0.7 < 0.8.
+TEST_F(ValidateRigid, TakesSoundOnes) {
+    EXPECT_EQ(rigid_error([](ObjectDescription&) {}), "no error");
+    EXPECT_EQ(rigid_error([](ObjectDescription& o) {
+                  o.rigid = RigidDescription{2.0, glm::dvec3(0.1, 0.7, 0.8)};
+              }),
+              "no error");
+    EXPECT_EQ(
+        error_of(BREAKS(s.objects[0].rigid.emplace(); s.collision.response = CollisionResponse::restore)),
+        "no error");
+}
+
+// Files are refused as they are read.
+TEST_F(ValidateRigid, RefusesWhatOnlyDeformableObjectsHave) {
+    const std::string nodes =
+        ": a rigid body has none: an [[attachment]] holds it, and a [[collider]] follows keyframes";
+    const std::string tets = ": a rigid body has none: it does not deform, and has no tets";
+    const Region region = HalfSpaceRegion{{1, 0, 0}, 0.0};
+    EXPECT_EQ(rigid_error([&](ObjectDescription& o) { o.pins = {region}; }), "rigid.ball.pins" + nodes);
+    EXPECT_EQ(rigid_error([&](ObjectDescription& o) { o.handles.resize(1); }), "rigid.ball.handle" + nodes);
+    EXPECT_EQ(rigid_error([&](ObjectDescription& o) { o.mesher.nodes = 100; }), "rigid.ball.mesher" + tets);
+    EXPECT_EQ(rigid_error([&](ObjectDescription& o) {
+                  o.parts = {{region, "jelly"}};
+              }),
+              "rigid.ball.part" + tets);
+    EXPECT_EQ(rigid_error([&](ObjectDescription& o) { o.start.scale.y = 0.5; }), "rigid.ball.start" + tets);
+    EXPECT_EQ(rigid_error([&](ObjectDescription& o) { o.start.scatter = 0.5; }), "rigid.ball.start" + tets);
+    EXPECT_EQ(rigid_error([&](ObjectDescription& o) { o.skin = false; }), "rigid.ball.skin" + tets);
+}
+
+TEST_F(ValidateRigid, NamesAreFreeAmongAllObjects) {
+    EXPECT_EQ(error_of(BREAKS(s.objects.push_back(s.objects[0]); s.objects[1].rigid.emplace())),
+              "rigid.ball.name = \"ball\": is taken by another object");
+}
+
 // Files cannot contain them.
 TEST(MeshShape, IsCheckedWhereItStands) {
     const auto error_of = [](const std::function<void(Scene&)>& breaks) {

@@ -248,7 +248,7 @@ TEST_F(Validation, UpIsYOrZ) {
 }
 
 TEST_F(Validation, NeedsObjects) {
-    EXPECT_EQ(error_of(BREAKS(s.objects.clear())), "has no objects: add an [[object]]");
+    EXPECT_EQ(error_of(BREAKS(s.objects.clear())), "has no objects: add an [[object]] or a [[rigid]]");
 }
 
 TEST_F(Validation, NeedsMaterials) {
