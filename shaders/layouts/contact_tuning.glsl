@@ -37,6 +37,7 @@ const float kEasing = 1.0 / 3.0;
 const float kPushing = 0.1;
 const float kOfRestGap = 0.5;
 const float kSoftened = 0.04;
+const float kOnEdge = 2e-3;
 const float kSlackOfThickness = 0.5;
 const float kSlackOfMotion = 0.1;
 const float kDeepest = 20.0;

@@ -55,11 +55,14 @@ float weight_of_edges(NearPair near, vec3 toward) {
                weight_of_edge(near.second, b, at(near.node_3) - b, -toward));
 }
 
+// Whether what is that way from the nearest point is not nearer.
+bool leads_away(vec3 toward, vec3 way) { return dot(toward, way) >= -kOnEdge * length(way); }
+
 // @param k the edge of the face from corner k to k + 1
 bool presses_edge(NearPair near, vec3 toward, uint k) {
     uvec2 other = texelFetch(across, int(3u * near.second + k)).xy;
     if (other.x == kNone) return true;
-    return other.x > near.second && dot(toward, at(other.y) - at(nodes_of(near)[1u + k])) >= 0.0;
+    return other.x > near.second && leads_away(toward, at(other.y) - at(nodes_of(near)[1u + k]));
 }
 
 bool presses_corner(NearPair near, vec3 toward, uint k) {
@@ -69,7 +72,7 @@ bool presses_corner(NearPair near, vec3 toward, uint k) {
     for (uint p = first; p < end; ++p) {
         uvec4 face = texelFetch(faces, int(texelFetch(node_faces, int(p)).x));
         for (int n = 0; n < 3; ++n)
-            if (face[n] != corner && dot(toward, at(face[n]) - at(corner)) < 0.0) return false;
+            if (face[n] != corner && !leads_away(toward, at(face[n]) - at(corner))) return false;
     }
     return true;
 }
@@ -77,7 +80,9 @@ bool presses_corner(NearPair near, vec3 toward, uint k) {
 // Within the face, always. At one of its edges or corners, by the lowest of the faces there alone, and only where no face there is
 // nearer.
 bool presses_face(NearPair near, vec3 toward) {
-    bvec3 is_off = lessThanEqual(near.weights.yzw, vec3(0.0));
+    vec3 a = at(near.node_1), b = at(near.node_2), c = at(near.node_3), normal = cross(b - a, c - a);
+    vec3 edges = vec3(distance(b, c), distance(c, a), distance(a, b));
+    bvec3 is_off = lessThanEqual(near.weights.yzw * length(normal), kOnEdge * near.normal.w * edges);
     uint count = uint(is_off.x) + uint(is_off.y) + uint(is_off.z);
     if (count == 0u) return true;
     if (count == 1u) return presses_edge(near, toward, is_off.z ? 0u : is_off.x ? 1u : 2u);

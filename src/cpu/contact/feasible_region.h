@@ -59,6 +59,7 @@ public:
 
 private:
     static constexpr Real kSoftened = static_cast<Real>(tuning::kSoftened);
+    static constexpr Real kOnEdge = static_cast<Real>(tuning::kOnEdge);
 
     Vec3<Real> at(std::uint32_t node) const { return Vec3<Real>(positions_[node]); }
 
@@ -67,6 +68,7 @@ private:
     Real weight_of_edges(const ContactPair& pair, const Vec3<Real>& apart, const Vec4<Real>& weights) const {
         for (int k = 0; k < 4; ++k)
             if (!(weights[k] > Real(0))) return Real(0);
+        if (surface_.is_flat_edge[pair.first] != 0 || surface_.is_flat_edge[pair.second] != 0) return Real(0);
         Real weight = 1;
         const Real distance = glm::length(apart);
         for (std::size_t side = 0; side < 2; ++side) {
@@ -88,7 +90,14 @@ private:
     // Within the face, always. At one of its edges or corners, by the lowest of the faces there alone, and
     // only where no face there is nearer.
     bool presses_face(const ContactPair& pair, const Vec3<Real>& apart, const Vec4<Real>& weights) const {
-        const std::array<bool, 3> is_off{weights.y <= Real(0), weights.z <= Real(0), weights.w <= Real(0)};
+        const std::array<Vec3<Real>, 3> corners{at(pair.nodes[1]), at(pair.nodes[2]), at(pair.nodes[3])};
+        const Vec3<Real> normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const Real size = glm::length(normal), least = kOnEdge * glm::length(apart);
+        std::array<bool, 3> is_off{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Real edge = glm::distance(corners[(k + 1) % 3], corners[(k + 2) % 3]);
+            is_off[k] = weights[static_cast<int>(k) + 1] * size <= least * edge;
+        }
         const auto count = std::count(is_off.begin(), is_off.end(), true);
         if (count == 0) return true;
         if (count == 1) return presses_edge(pair, apart, is_off[2] ? 0u : is_off[0] ? 1u : 2u);
@@ -99,8 +108,7 @@ private:
     bool presses_edge(const ContactPair& pair, const Vec3<Real>& apart, std::uint32_t k) const {
         const CornerAcross& across = surface_.across[3 * pair.second + k];
         if (across.face == kNoNode) return true;
-        return across.face > pair.second &&
-               glm::dot(apart, at(across.corner) - at(pair.nodes[1 + k])) >= Real(0);
+        return across.face > pair.second && leads_away(apart, at(across.corner) - at(pair.nodes[1 + k]));
     }
 
     bool presses_corner(const ContactPair& pair, const Vec3<Real>& apart, std::uint32_t k) const {
@@ -110,9 +118,14 @@ private:
         for (std::uint32_t p = around.starts[corner]; p < around.starts[corner + 1]; ++p) {
             const Face& face = model_.faces[around.faces[p]];
             for (const std::uint32_t n : {face.a, face.b, face.c})
-                if (n != corner && glm::dot(apart, at(n) - at(corner)) < Real(0)) return false;
+                if (n != corner && !leads_away(apart, at(n) - at(corner))) return false;
         }
         return true;
+    }
+
+    // Whether what is that way from the nearest point is not nearer.
+    static bool leads_away(const Vec3<Real>& apart, const Vec3<Real>& way) {
+        return glm::dot(apart, way) >= -kOnEdge * glm::length(apart) * glm::length(way);
     }
 
     const Model& model_;

@@ -45,13 +45,14 @@ inline constexpr double kLeastReach = 1e-3, kEasing = 1.0 / 3.0;
 inline constexpr double kPushing = 0.1;
 /// Parts of one body press from this part of their distance at rest on, if that is less than the reach.
 inline constexpr double kOfRestGap = 0.5;
-/// A node of a rigid body counts in contacts with this part of its mass: bodies lie on three or four.
-inline constexpr double kBearing = 0.25;
 /// Ties of attachments are so many times as stiff as what they tie together.
 inline constexpr double kTied = 300.0;
 /// Edges of which a neighbour of the face beside them is in the way of the line by a cosine of this press
 /// half as much as edges without. With 0.05 a block on a slope of faces is slowed by more than friction.
 inline constexpr double kSoftened = 0.04;
+/// A nearest point on a face that is nearer to an edge of it than this part of the gap is on that edge, and
+/// what is nearer by less is not: by rounding, where flat faces meet, both would press a node, or none.
+inline constexpr double kOnEdge = 2e-3;
 
 // Detection.
 

@@ -241,7 +241,7 @@ void Guard<Real>::place_body(std::uint32_t object, const Paths<Real>& paths, std
     const std::span<const Vec4<Real>> starts = std::span(paths.from).subspan(nodes.first, nodes.count);
     std::vector<Vec4<Real>> wanted(starts.begin(), starts.end());
     for (std::uint32_t k = 0; k < nodes.count; ++k) wanted[k] += Vec4<Real>(wanted_[nodes.first + k], 0);
-    const Pose from = rigid_bodies_.pose(object, starts), to = rigid_bodies_.pose(object, wanted);
+    const Pose from = rigid_bodies_.nearest(object, starts), to = rigid_bodies_.nearest(object, wanted);
     glm::dvec3 s = to.center - from.center, w = rotation_vector(to.rotation * glm::transpose(from.rotation));
     RigidSums sums;
     bool is_frozen = false;

@@ -64,6 +64,7 @@ void ImplicitStep<Real>::archive(Archive& archive) {
     archive.array(held_counts_);
     rows_.archive(archive);
     attachments_.archive(archive);
+    rigid_bodies_.archive(archive);
     restitution_.archive(archive);
     energy_.archive(archive);
     archive.list(acting_);  // bodies asleep make no step that would find them again
@@ -141,10 +142,11 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         }
         const TimedStage part(timer, "advance_nodes.guard");
         std::vector<std::uint32_t> stopped;  // bodies
+        const std::vector<Vec4<Real>> before_guard = current.positions;
         if (guard(previous, current)) {
             gained = gain();
             if (gained > 0.0) {
-                stopped = stop_guarded(previous, current);
+                stopped = stop_guarded(before_guard, current);
                 gained = gain();
             }
         }
@@ -296,15 +298,12 @@ void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>
     });
 }
 
-// 1 / h of a node in contacts. A rigid body lies on a few of its nodes, however many it has: each is as heavy
-// as a part of it, and those inside touch nothing.
+// 1 / h of a node in contacts.
 template <class Real>
 Real ImplicitStep<Real>::compliance(std::size_t n, Real inverse_mass, Real step) const {
-    const ModelObject& object = model_->objects[object_of_[n]];
-    if (object.is_rigid)
-        return surface_->places[n] == kNoNode
-                   ? Real(0)
-                   : step * step / static_cast<Real>(tuning::kBearing * object.mass);
+    if (model_->objects[object_of_[n]].is_rigid)
+        return surface_->places[n] == kNoNode ? Real(0)
+                                              : step * step / static_cast<Real>(surface_->bearing[n]);
     return Real(1) /
            (Real(1) / (inverse_mass * step * step) + static_cast<Real>(surface_->stiffness[n]) / Real(3));
 }
@@ -444,17 +443,16 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
 // Nodes that the guard has stopped are no faster than they went: else they press on what stopped them in each
 // part after it, and elements take up energy without end. Islands that nothing holds keep their momentum
 // and angular momentum.
-// @return bodies whose velocities have changed
+// @param wanted positions before the guard @return bodies whose velocities have changed
 template <class Real>
-std::vector<std::uint32_t> ImplicitStep<Real>::stop_guarded(const Nodes<Real>& previous,
+std::vector<std::uint32_t> ImplicitStep<Real>::stop_guarded(std::span<const Vec4<Real>> wanted,
                                                             Nodes<Real>& current) const {
     std::vector<RigidSums> sums(model_->body_count());  // by island, with momenta for forces
     std::vector<std::uint8_t> is_stopped(sums.size());  // islands
     for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
         const Vec4<Real> x = current.positions[n];
         if (x.w == Real(0)) continue;
-        const Vec3<Real> wanted = Vec3<Real>(previous.positions[n]) + system_.displacements[n];
-        const Vec3<Real> change = (Vec3<Real>(x) - wanted) / step_;
+        const Vec3<Real> change = Vec3<Real>(x - wanted[n]) / step_;
         current.velocities[n] += Vec4<Real>(change, 0);
         const double mass = 1.0 / static_cast<double>(x.w);
         const std::uint32_t island = islands_.of_bodies[object_of_[n]];
@@ -503,10 +501,13 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
                 input.pulls->force_at_end(n, Vec4<Real>(Vec3<Real>(x) + d[n], x.w), Vec3<Real>(x), step_);
         }
     system_.rigid.rotate(previous.positions, system_.inertia, d);
-    rigid_bodies_.keep_shapes(previous.positions, d);
+    for_each_index(d.size(), [&](std::size_t n) {
+        const Vec4<Real> x = previous.positions[n];
+        current.positions[n] = Vec4<Real>(Vec3<Real>(x) + d[n], x.w);
+    });
+    rigid_bodies_.move(previous.positions, d, current.positions);
     for_each_index(d.size(), [&](std::size_t n) {
         const Vec4<Real> x = previous.positions[n], v = previous.velocities[n];
-        current.positions[n] = Vec4<Real>(Vec3<Real>(x) + d[n], x.w);
         if (x.w == Real(0)) {
             current.velocities[n] = v;
             return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
@@ -8,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/archive.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
@@ -23,7 +25,8 @@ struct Pose {
 glm::dmat3 rotation_about(const glm::dvec3& w);
 glm::dvec3 rotation_vector(const glm::dmat3& rotation);
 
-/// Keeps rigid bodies in shape: their nodes are their state, as those of others are, and move as one.
+/// Keeps rigid bodies in shape: their nodes are their state, as those of others are, and move as one. Nodes
+/// are rounded, so their pose is known better than they tell.
 template <class Real>
 class RigidBodies {
 public:
@@ -34,17 +37,27 @@ public:
     bool is_rigid(std::size_t object) const { return model_->objects[object].is_rigid; }
 
     /// The one nearest to where nodes are, in the mean of their masses. @param positions of its nodes [m]
-    Pose pose(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
-    /// Displacements become those of the nearest poses. @param positions where they begin [m], shape [nodes];
-    /// bodies with nodes whose w is 0 are left out
-    void keep_shapes(std::span<const Vec4<Real>> positions, std::span<Vec3<Real>> displacements) const;
+    Pose nearest(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    /// Bodies go where nodes are displaced, in the mean of their masses. Those that are held stay.
+    /// @param positions where they begin; w: 0 for held nodes @param displacements [m], output: of the whole
+    /// body @param ends output; all shape [nodes]
+    void move(std::span<const Vec4<Real>> positions, std::span<Vec3<Real>> displacements,
+              std::span<Vec4<Real>> ends);
+    void archive(Archive& archive);
     /// Velocities become those of the bodies' momentum and angular momentum.
     void keep_velocities(Nodes<Real>& nodes) const;
 
 private:
+    Vec3<Real> place(const Pose& pose, std::uint32_t node) const {
+        return Vec3<Real>(pose.center + pose.rotation * arms_[node]);
+    }
+    Pose mean_pose(std::uint32_t object, std::span<const glm::dvec3> positions) const;
+    Pose known_pose(std::size_t body, std::span<const Vec4<Real>> positions) const;
+
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> objects_;
-    std::vector<glm::dvec3> arms_;  // of nodes of these in the model, from the centre of mass [m]
+    std::vector<std::array<Pose, 2>> known_;  // of these: where the last step began, and its end
+    std::vector<glm::dvec3> arms_;            // of nodes of these in the model, from the centre of mass [m]
 };
 
 }  // namespace gelatin::cpu

@@ -15,6 +15,7 @@ namespace gelatin {
 namespace {
 
 constexpr double kThickness = 0.05;  // of the median edge
+constexpr double kOfRigid = 0.005;   // at most, of a rigid body's size: its faces may be as large as it is
 
 // One side of a surface edge: face 3 f + k, from corner k to k + 1.
 struct HalfEdge {
@@ -41,6 +42,19 @@ std::uint32_t opposite_corner(const Model& model, std::uint32_t half) {
     return corners_of(model.faces[half / 3])[(half % 3 + 2) % 3];
 }
 
+// Faces of a rigid body on both sides of an edge have the same normal.
+bool is_flat(const Model& model, const FaceEdge& edge, const glm::uvec2& beside) {
+    constexpr double kOfSize = 1e-4;
+    if (!model.objects[edge.object].is_rigid || beside.y == kNoNode) return false;
+    const auto from_edge = [&](std::uint32_t n) {
+        return glm::dvec3(model.positions[n]) - glm::dvec3(model.positions[edge.a]);
+    };
+    const glm::dvec3 along = from_edge(edge.b), first = glm::cross(along, from_edge(beside.x)),
+                     second = glm::cross(along, from_edge(beside.y));
+    return glm::dot(first, second) < 0.0 &&
+           glm::length(glm::cross(first, second)) < kOfSize * glm::length(first) * glm::length(second);
+}
+
 void add_neighbors(const Model& model, ContactSurface& surface) {
     const std::vector<HalfEdge> halves = sorted_half_edges(model);
     surface.across.resize(3 * model.faces.size());
@@ -61,6 +75,7 @@ void add_neighbors(const Model& model, ContactSurface& surface) {
              ++k, ++half)
             beside[k] = opposite_corner(model, half->index);
         surface.beside_edges.push_back(beside);
+        surface.is_flat_edge.push_back(is_flat(model, edge, beside) ? 1 : 0);
     }
 }
 
@@ -100,11 +115,34 @@ void add_tets(const Model& model, std::vector<double>& traces) {
     }
 }
 
+// What a rigid body lies on bears what is on it, too. Sides have the stiffness of their area, however many
+// nodes they have; a node by itself has enough to carry its body.
+std::vector<float> find_bearing(const Model& model, const std::vector<std::uint32_t>& places) {
+    constexpr double kOfShare = 128.0;  // with 8 a stack of twenty boxes sways for ten seconds
+    constexpr double kLeast = 0.25;     // with more the edges of a ball of faces brake it
+    std::vector<float> bearing(model.node_count());
+    for (const ModelObject& object : model.bodies()) {
+        if (!object.is_rigid) continue;
+        double sum = 0.0;
+        const auto for_surface = [&](const auto& visit) {
+            for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+                if (places[n] != kNoNode) visit(n, static_cast<double>(model.masses[n]));
+        };
+        for_surface([&](std::uint32_t, double mass) { sum += mass; });
+        for_surface([&](std::uint32_t n, double mass) {
+            bearing[n] = static_cast<float>(std::max(kOfShare * mass / sum, kLeast) * object.mass);
+        });
+    }
+    return bearing;
+}
+
 std::vector<double> find_thicknesses(const Model& model) {
     std::vector<double> thicknesses;
     for (std::size_t o = 0; o < model.objects.size(); ++o) {
-        const double of_edges = model.is_body(o) ? kThickness * median_edge(model, o, model.positions) : 0.0;
-        thicknesses.push_back(model.objects[o].surface.thickness.value_or(of_edges));
+        const ModelObject& object = model.objects[o];
+        double usual = model.is_body(o) ? kThickness * median_edge(model, o, model.positions) : 0.0;
+        if (object.is_rigid) usual = std::min(usual, kOfRigid * std::cbrt(object.rest_volume));
+        thicknesses.push_back(object.surface.thickness.value_or(usual));
     }
     return thicknesses;
 }
@@ -198,6 +236,7 @@ ContactSurface make_contact_surface(const Model& model, const CollisionSettings&
     surface.places = places_on_surface(model);
     add_neighbors(model, surface);
     surface.stiffness = stiffnesses_at_rest(model);
+    surface.bearing = find_bearing(model, surface.places);
     surface.thicknesses = find_thicknesses(model);
     surface.is_convex.resize(model.objects.size());
     for (std::size_t o = 0; o < model.body_count(); ++o)

@@ -59,6 +59,7 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kPushing, static_cast<float>(cpu::kPushing));
     EXPECT_EQ(gpu::kOfRestGap, static_cast<float>(cpu::kOfRestGap));
     EXPECT_EQ(gpu::kSoftened, static_cast<float>(cpu::kSoftened));
+    EXPECT_EQ(gpu::kOnEdge, static_cast<float>(cpu::kOnEdge));
     EXPECT_EQ(gpu::kSlackOfThickness, static_cast<float>(cpu::kSlackOfThickness));
     EXPECT_EQ(gpu::kSlackOfMotion, static_cast<float>(cpu::kSlackOfMotion));
     EXPECT_EQ(gpu::kDeepest, static_cast<float>(cpu::kDeepest));
