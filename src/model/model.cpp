@@ -10,6 +10,11 @@ bool Model::has_damping() const {
     return std::any_of(velocities.begin(), velocities.end(), [](const glm::vec4& v) { return v.w > 0.0f; });
 }
 
+bool Model::has_rigid_bodies() const {
+    return std::any_of(objects.begin(), objects.end(),
+                       [](const ModelObject& object) { return object.is_rigid; });
+}
+
 std::vector<std::uint32_t> places_on_surface(const Model& model) {
     std::vector<std::uint32_t> places(model.node_count(), kNoNode);
     const std::vector<std::uint32_t>& nodes = model.surface_parts.nodes;

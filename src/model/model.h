@@ -146,6 +146,7 @@ struct Model {
     std::size_t body_count() const { return objects.size() - surfaces.size(); }
     std::span<const ModelObject> bodies() const { return {objects.data(), body_count()}; }
     bool is_body(std::size_t object) const { return object < body_count(); }
+    bool has_rigid_bodies() const;
     /// Those of bodies come first.
     std::uint32_t body_node_count() const {
         return body_count() > 0 ? objects[body_count() - 1].nodes.end() : 0;

@@ -86,6 +86,9 @@ void Simulation::rebuild(const Scene& of, std::shared_ptr<const Model> from, std
 void Simulator::pin(std::size_t object, std::span<const std::uint32_t> nodes) {
     Simulation& d = impl_->simulation();
     const ModelObject& body = d.body(object);
+    if (body.is_rigid)
+        throw InvalidInput(
+            fmt::format("object '{}' is rigid: not pins, but an attachment holds it", body.name));
     if (nodes.empty()) throw InvalidInput(fmt::format("a pin of object '{}' has no nodes", body.name));
     AddedPin pin;
     pin.object = object;

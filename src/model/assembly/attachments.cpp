@@ -29,11 +29,12 @@ std::vector<glm::dvec3> positions_of(const ModelObject& object, std::span<const 
     return {own.begin(), own.end()};
 }
 
-// What carries points of an object: a body, or a collider's surface.
+// What carries points of an object: the tets of a body, or four nodes of what is rigid, a body or a
+// collider's surface.
 class Carrier {
 public:
     Carrier(const Model& model, std::uint32_t object, std::span<const glm::vec4> positions)
-        : object_(model.objects[object]), is_body_(model.is_body(object)) {
+        : object_(model.objects[object]), is_rigid_(object_.is_rigid || !model.is_body(object)) {
         mesh_.positions = positions_of(object_, positions);
         for (std::uint32_t t = object_.tets.first; t < object_.tets.end(); ++t)
             mesh_.tets.push_back(model.tets[t] - object_.nodes.first);
@@ -42,19 +43,20 @@ public:
             mesh_.faces.push_back(glm::uvec3(face.a, face.b, face.c) - object_.nodes.first);
         }
         edge_ = median_edge(model, object, positions);
-        if (!is_body_) find_frame();
+        if (is_rigid_) find_frame();
     }
 
     const std::string& name() const { return object_.name; }
     double edge() const { return edge_; }
+    bool is_rigid() const { return is_rigid_; }
     SurfaceMesh hull() const { return {mesh_.positions, mesh_.faces}; }
 
     std::vector<CarriedVertex> carry(const std::vector<glm::dvec3>& points) const {
         std::vector<CarriedVertex> carried;
-        if (is_body_) {
-            carried = carry_surface({points, {}}, mesh_).vertices;
-        } else {
+        if (is_rigid_) {
             for (const glm::dvec3& point : points) carried.push_back(carry_by_frame(point));
+        } else {
+            carried = carry_surface({points, {}}, mesh_).vertices;
         }
         for (CarriedVertex& vertex : carried) vertex.nodes += object_.nodes.first;
         return carried;
@@ -64,22 +66,21 @@ public:
     bool can_carry() const {
         const glm::dmat3 edges = frame_edges();
         const double size = glm::length(edges[0]);
-        return is_body_ || std::abs(glm::determinant(edges)) > 1e-3 * size * size * size;
+        return !is_rigid_ || std::abs(glm::determinant(edges)) > 1e-3 * size * size * size;
     }
 
 private:
-    // Four nodes as far apart as possible.
+    // Four nodes of the surface, as far apart as possible.
     void find_frame() {
+        std::vector<std::uint32_t> nodes;
+        for (const glm::uvec3& face : mesh_.faces) nodes.insert(nodes.end(), {face.x, face.y, face.z});
         const auto farthest = [&](const auto& measure) {
-            const auto less = [&](const glm::dvec3& a, const glm::dvec3& b) {
-                return measure(a) < measure(b);
-            };
-            const auto& places = mesh_.positions;
-            return static_cast<std::uint32_t>(std::max_element(places.begin(), places.end(), less) -
-                                              places.begin());
+            return *std::max_element(nodes.begin(), nodes.end(), [&](std::uint32_t a, std::uint32_t b) {
+                return measure(mesh_.positions[a]) < measure(mesh_.positions[b]);
+            });
         };
         const auto at = [&](int k) { return mesh_.positions[frame_[k]]; };
-        frame_.x = farthest([&](const glm::dvec3& p) { return glm::distance(p, mesh_.positions[0]); });
+        frame_.x = farthest([&](const glm::dvec3& p) { return glm::distance(p, mesh_.positions[nodes[0]]); });
         frame_.y = farthest([&](const glm::dvec3& p) { return glm::distance(p, at(0)); });
         frame_.z =
             farthest([&](const glm::dvec3& p) { return glm::length(glm::cross(at(1) - at(0), p - at(0))); });
@@ -98,10 +99,10 @@ private:
     }
 
     const ModelObject& object_;
-    bool is_body_;
+    bool is_rigid_;
     TetMesh mesh_;
     double edge_;
-    glm::uvec4 frame_{0};  // of a collider
+    glm::uvec4 frame_{0};  // of what is rigid
 };
 
 class AttachmentMaker {
@@ -246,6 +247,7 @@ private:
     // A tet that is small beside its distance would throw the point about.
     void check_near(const Carrier& carrier, const std::vector<glm::dvec3>& points,
                     const std::vector<CarriedVertex>& carried, const char* key) const {
+        if (carrier.is_rigid()) return;
         const double most = kFar * carrier.edge();
         const lattice::FaceTree hull(carrier.hull());
         for (std::size_t p = 0; p < points.size(); ++p) {
@@ -265,7 +267,7 @@ private:
             for (std::size_t p = 0; p < ties.size(); ++p) ties[p].at = glm::vec3(points[p]);
         } else {
             const std::vector<CarriedVertex> carried = other_->carry(points);
-            if (model_.is_body(made_.other)) check_near(*other_, points, carried, key);
+            check_near(*other_, points, carried, key);
             for (std::size_t p = 0; p < ties.size(); ++p)
                 for (int k = 0; k < 4; ++k) add(ties[p], carried[p].nodes[k], -carried[p].weights[k]);
         }
