@@ -137,7 +137,6 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             if (moves_bodies(previous)) on_held = system_.elastic_forces();
             gained = gain();
         }
-            fprintf(stderr, "h %g solve gained %g past %d\n", double(input.step), gained, int(has_past));
         if (has_past && gained > 0.0) {
             damps = true;
             continue;
@@ -152,9 +151,6 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
                 gained = gain();
             }
         }
-            fprintf(stderr, "h %g final gained %g past %d E %g rounds %d\n", double(input.step), gained,
-                    int(has_past), std::accumulate(energy_.after().begin(), energy_.after().end(), 0.0),
-                    system_.counts.rigid_rounds);
         if (!is_shortest && gained > tuning::kMostGain) {
             divide();
             continue;
