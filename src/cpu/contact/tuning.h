@@ -47,6 +47,8 @@ inline constexpr double kPushing = 0.1;
 inline constexpr double kOfRestGap = 0.5;
 /// Ties of attachments are so many times as stiff as what they tie together.
 inline constexpr double kTied = 300.0;
+/// And those of rigid bodies, which nothing else yields at.
+inline constexpr double kRigidTied = 1000.0;
 /// Edges of which a neighbour of the face beside them is in the way of the line by a cosine of this press
 /// half as much as edges without. With 0.05 a block on a slope of faces is slowed by more than friction.
 inline constexpr double kSoftened = 0.04;

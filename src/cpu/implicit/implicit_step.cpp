@@ -380,6 +380,8 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
         if (system_.inertia[n] > Real(0) && !system_.rigid.is_free(object_of_[n]))
             system_.displacements[n] = input.step * Vec3<Real>(previous.velocities[n]);
     });
+    for (const std::uint32_t o : rigid_bodies_.objects())
+        if (system_.rigid.is_free(o)) system_.rigid.make_rigid(o, system_.inertia, system_.displacements);
 }
 
 // Where objects meet that go farther beside each other than anything that a step could find out about, it is

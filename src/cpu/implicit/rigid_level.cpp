@@ -84,6 +84,16 @@ Motion RigidLevel<Real>::rigid_part(std::size_t object, std::span<const Real> in
 }
 
 template <class Real>
+void RigidLevel<Real>::make_rigid(std::size_t object, std::span<const Real> inertia,
+                                  std::span<Vec3<Real>> displacements) const {
+    const Motion part = rigid_part(object, inertia, displacements);
+    const Vec3<Real> s(part(0), part(1), part(2)), w(part(3), part(4), part(5));
+    const Range& nodes = model_->objects[object].nodes;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+        displacements[n] = s + glm::cross(w, arms_[n]);
+}
+
+template <class Real>
 void RigidLevel<Real>::follow_rotation(std::span<const Vec4<Real>> positions, std::span<const Real> inertia,
                                        std::span<Vec3<Real>> displacements,
                                        std::span<Vec3<Real>> forces) const {

@@ -50,6 +50,9 @@ public:
     /// The rigid part of displacements of a free body's nodes, by inertia. @param inertia as in begin()
     Motion rigid_part(std::size_t object, std::span<const Real> inertia,
                       std::span<const Vec3<Real>> displacements) const;
+    /// Nothing but that is left of them.
+    void make_rigid(std::size_t object, std::span<const Real> inertia,
+                    std::span<Vec3<Real>> displacements) const;
     /// What a step of true rotations differs by from a linear one, d = s + w x r, to second order, for the
     /// rotation w that inertia wants: the displacements w x (w x r) / 2 are taken out, and forces rotate with
     /// their bodies.

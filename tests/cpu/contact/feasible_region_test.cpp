@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cpu/contact/nearest_pairs.h"
+#include "cpu/contact/tuning.h"
 #include "mesh/shapes.h"
 #include "model/collision/node_faces.h"
 #include "model/collision/surface_parts.h"
@@ -122,7 +123,9 @@ void expect_one_face_presses(Surfaces& surfaces, const glm::dvec3& point) {
         least_gap = std::min(least_gap, gap);
     }
     EXPECT_EQ(sum, 1.0) << point.x << " " << point.y << " " << point.z;
-    EXPECT_NEAR(pressing_gap, least_gap, 1e-12) << point.x << " " << point.y << " " << point.z;
+    // Beside an edge another face may press, at its point on the edge.
+    const double most = 0.5 * cpu::tuning::kOnEdge * cpu::tuning::kOnEdge * least_gap;
+    EXPECT_NEAR(pressing_gap, least_gap, most + 1e-12) << point.x << " " << point.y << " " << point.z;
 }
 
 // Points above faces, edges and nodes of a sheet, beside its border and beyond its corners.
