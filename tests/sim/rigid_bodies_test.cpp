@@ -133,7 +133,7 @@ TEST_P(RigidBodiesTest, RotationsAreRead) {
     advance(simulator, 60);
     for (const std::size_t object : {kCushion, kCrate}) {
         const glm::dvec3 x = simulator.rotation(object) * glm::dvec3(1.0, 0.0, 0.0);
-        EXPECT_LT(glm::distance(x, glm::dvec3(0.0, 0.0, -1.0)), 2e-2) << object;
+        EXPECT_LT(glm::distance(x, glm::dvec3(0.0, 0.0, -1.0)), object == kCrate ? 1e-2 : 5e-2) << object;
     }
     EXPECT_THROW(simulator.rotation(2), InvalidInput);
 }
@@ -215,21 +215,34 @@ TEST_P(RigidBodiesTest, LoadsAccelerateAndSpin) {
     EXPECT_LT(glm::distance(end.angular, glm::dvec3(0.05 * 0.16 * 30.0 * 0.2, 0.0, 0.0)), 1e-2);
 }
 
+// By all nodes, to hang 2 cm below where it is pulled to; then by a corner.
 TEST_P(RigidBodiesTest, HandsPullAndPinsAreRefused) {
     Simulator simulator = make(crate_and_cushion({0.0, -9.81, 0.0}));
     const IndexRange nodes = simulator.object(kCrate).nodes;
+    const double stiffness = 38.4 * 9.81 / 0.02;
+    const Motion start = motion_of(simulator, kCrate);
     Pull pull;
-    const glm::vec3 held(simulator.positions()[nodes.first]);
-    pull.nodes.push_back({nodes.first, glm::vec3(0.0f), 2e4f});  // stretched by 2 cm
-    pull.target = glm::dvec3(held) + glm::dvec3(0.0, 1.0, 0.5);
-    pull.damping_time = 2.0 * std::sqrt(38.4 / 2e4);
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const glm::vec4& p = simulator.positions()[n];
+        pull.nodes.push_back(
+            {n, glm::vec3(glm::dvec3(p) - start.center), static_cast<float>(stiffness / 38.4) / p.w});
+    }
+    pull.target = start.center + glm::dvec3(0.0, 1.0, 0.5);
+    pull.damping_time = 2.0 * std::sqrt(38.4 / stiffness);
     simulator.set_pulls({pull});
-    advance(simulator, 300);
+    advance(simulator, 120);
     EXPECT_LT(distance_to_rigid(simulator, kCrate), 2e-6);
-    const Motion end = motion_of(simulator, kCrate);
-    EXPECT_LT(glm::length(end.momentum) / end.mass, 0.1) << "it hangs from the corner";
-    EXPECT_NEAR(static_cast<double>(simulator.positions()[nodes.first].y), pull.target.y - 0.0188, 2e-3);
-    EXPECT_LT(end.center.y, pull.target.y - 0.3);
+    Motion now = motion_of(simulator, kCrate);
+    EXPECT_LT(glm::length(now.momentum) / now.mass, 1e-2);
+    EXPECT_LT(glm::distance(now.center, pull.target - glm::dvec3(0.0, 0.02, 0.0)), 1e-3);
+    pull.nodes = {{nodes.first, glm::vec3(0.0f), 2e4f}};
+    pull.target = glm::dvec3(simulator.positions()[nodes.first]);
+    simulator.set_pulls({pull});
+    advance(simulator, 600);
+    EXPECT_LT(distance_to_rigid(simulator, kCrate), 2e-6);
+    now = motion_of(simulator, kCrate);
+    EXPECT_LT(glm::length(now.momentum) / now.mass, 0.2);
+    EXPECT_LT(now.center.y, static_cast<double>(simulator.positions()[nodes.first].y) - 0.3) << "it hangs";
     simulator.set_pulls({});
     try {
         simulator.pin(kCrate, std::vector<std::uint32_t>{0});
