@@ -10,7 +10,8 @@
 namespace gelatin::cpu {
 
 template <class Real>
-AttachmentRows<Real>::AttachmentRows(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+AttachmentRows<Real>::AttachmentRows(std::shared_ptr<const Model> model)
+    : model_(std::move(model)), object_of_(objects_of_nodes(*model_)) {}
 
 template <class Real>
 void AttachmentRows<Real>::set(const std::vector<Attachment>& attachments) {
@@ -89,6 +90,9 @@ template <class Real>
 void AttachmentRows<Real>::add(std::span<const Vec4<Real>> positions, std::span<const Real> compliances,
                                std::span<const std::uint8_t> asleep,
                                std::vector<ContactRow<Real>>& rows) const {
+    // Of rigid bodies: of a length that steps with them usually have, as energy comes from stiffness that
+    // changes.
+    constexpr auto part = static_cast<Real>(tuning::kFrame / tuning::kParts[0]);
     for (std::uint32_t a = 0; a < attachments_.size(); ++a) {
         const Attachment& attachment = attachments_[a];
         if (is_broken(a) || asleep[attachment.object] != 0) continue;
@@ -110,7 +114,12 @@ void AttachmentRows<Real>::add(std::span<const Vec4<Real>> positions, std::span<
                 row.nodes[k] = tie.nodes[k];
                 row.weights[k] = w;
                 apart += w * (Vec3<Real>(positions[tie.nodes[k]]) - origin);
-                yield += w * w * compliances[tie.nodes[k]];
+                const ModelObject& object = model_->objects[object_of_[tie.nodes[k]]];
+                const Real compliance = compliances[tie.nodes[k]];
+                yield +=
+                    w * w *
+                    (object.is_rigid && compliance > Real(0) ? part * part / static_cast<Real>(object.mass)
+                                                             : compliance);
             }
             if (!(yield > Real(0))) continue;
             row.stiffness = Real(1) / (yield / static_cast<Real>(tuning::kTied) + shared);
@@ -128,7 +137,7 @@ void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows,
         if (!is_broken(a) && asleep[attachments_[a].object] == 0) forces_[a].force = glm::dvec3(0.0);
     for (const ContactRow<Real>& row : rows)
         if (row.is_tie())
-            forces_[row.attachment].force += glm::dvec3(row.force(relative<Real>(row, displacements)));
+            forces_[row.attachment].force += glm::dvec3(row.force(slip<Real>(row, displacements)));
 }
 
 template <class Real>

@@ -55,6 +55,7 @@ private:
     const Attachment* find_tie(std::uint32_t node, std::uint32_t to) const;
 
     std::shared_ptr<const Model> model_;
+    std::vector<std::uint32_t> object_of_;
     std::vector<Attachment> attachments_;
     std::vector<State> forces_;
     std::vector<std::uint8_t> has_ties_;  // nodes

@@ -14,7 +14,7 @@
 namespace gelatin::cpu {
 
 /// One contact in a step: two sides whose nearest points move relative to each other by
-///   s = sum_k w_k d_k,
+///   s = sum_k w_k d_k + turned,
 /// with d_k the displacements of its nodes since the step began, and weights w_k that are negative on the
 /// first side and positive on the second. A plane, as a first side, has no nodes.
 template <class Real>
@@ -37,6 +37,8 @@ struct ContactRow {
     Vec3<Real> hold{0};     ///< lambda: friction on the second side, reversed, when the step begins [N]
     Real limit = 0;         ///< L: friction holds at most so much [N]
     std::uint64_t key = 0;  ///< of the same contact in the next step
+    /// What s is beside the sum, as rigid bodies rotate: by how much they leave linear displacements [m].
+    Vec3<Real> turned{0};
     /// Of which this is a tie, and no contact: it never presses, and what holds it has no limit.
     std::uint32_t attachment = kNoNode;
 
@@ -91,13 +93,19 @@ struct ContactRow {
     }
 };
 
-/// s, where nodes are displaced by d. @param displacements d [m], shape [nodes]
+/// sum_k w_k d_k. @param displacements d [m], shape [nodes]
 template <class Real, class Displacements>
 Vec3<Real> relative(const ContactRow<Real>& row, const Displacements& displacements) {
     Vec3<Real> s(0);
     for (std::uint32_t k = 0; k < row.count; ++k)
         s += row.weights[k] * Vec3<Real>(displacements[row.nodes[k]]);
     return s;
+}
+
+/// s, where nodes are displaced by d.
+template <class Real, class Displacements>
+Vec3<Real> slip(const ContactRow<Real>& row, const Displacements& displacements) {
+    return row.turned + relative(row, displacements);
 }
 
 /// A row's force to first order: constant - stiffness s.

@@ -161,7 +161,7 @@ void ContactRows<Real>::note(std::span<const ContactRow<Real>> rows,
             noted_.push_back(memory);
     for (const ContactRow<Real>& row : rows) {
         if (row.is_tie()) continue;
-        const Vec3<Real> s = relative<Real>(row, displacements);
+        const Vec3<Real> s = slip<Real>(row, displacements);
         ContactRow<Real> now = row;
         now.limit = row.friction * row.pressing(s);
         noted_.push_back({row.key, row.object, row.other, now.limit > Real(0) ? now.held(s) : Vec3<Real>(0),

@@ -93,7 +93,7 @@ void EnergyAccount<Real>::find_contacts(const Step& step) {
         if (step.asleep[o] == 0) contacts_at_end_[o] = 0.0;
     for (const ContactRow<Real>& row : step.rows) {
         const auto start = static_cast<double>(row.energy(Vec3<Real>(0))),
-                   end = static_cast<double>(row.energy(relative<Real>(row, step.displacements)));
+                   end = static_cast<double>(row.energy(slip<Real>(row, step.displacements)));
         const bool is_first = row.object != kNoNode && model_->is_body(row.object),
                    is_second = model_->is_body(row.other);
         const double share = is_first && is_second ? 0.5 : 1.0;
@@ -120,7 +120,7 @@ double EnergyAccount<Real>::work_on_rows(const Step& step, const ContactRow<Real
     if (row.object != kNoNode && !model_->is_body(row.object)) moved -= belt(row.object);
     if (!model_->is_body(row.other)) moved += belt(row.other);
     if (moved == Vec3<Real>(0)) return 0.0;
-    return -static_cast<double>(glm::dot(row.force(relative<Real>(row, step.displacements)), moved));
+    return -static_cast<double>(glm::dot(row.force(slip<Real>(row, step.displacements)), moved));
 }
 
 template <class Real>

@@ -94,9 +94,11 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             const TimedStage part(timer, "advance_nodes.detect");
             predict(input, previous);
             const bool is_found = damps || detect(previous, is_shortest);
-            if (is_found)
+            if (is_found) {
                 rows_.make({previous.positions, expected_, compliances_, slacks_, step_, scheme_.last_step()},
                            pairs_.pairs(), attachments_, system_.rows);
+                attachments_.add(previous.positions, compliances_, asleep_, system_.rows);
+            }
             if (wake_near(input, previous)) continue;
             parts_ = paces_.count_parts(system_.rows);
             if (is_found && shorten(input)) continue;
@@ -107,7 +109,6 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         }
         {
             const TimedStage part(timer, "advance_nodes.linearise");
-            attachments_.add(previous.positions, compliances_, asleep_, system_.rows);
             islands_.find<Real>(*model_, system_.rows, previous,
                                 !input.load_forces.empty() || input.pulls != nullptr);
             has_past = paces_.choose(islands_, step_, damps || is_shortest, system_.rows, scheme_);
@@ -119,7 +120,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             system_.solve(islands_.of_bodies);
             solve_counts_ += system_.counts;
         }
-        if (own_ && is_torn(is_shortest)) {
+        if ((own_ && is_torn(is_shortest)) || (system_.counts.failures > 0 && !is_shortest)) {
             divide();
             continue;
         }
@@ -489,7 +490,7 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
     for (std::size_t n = 0; n < input.load_forces.size(); ++n) forces[n] = Vec3<Real>(input.load_forces[n]);
     std::erase_if(acting_, [&](const Acting& acting) { return !is_asleep(acting.row); });
     for (const ContactRow<Real>& row : system_.rows) {
-        const Vec3<Real> s = relative<Real>(row, system_.displacements), force = row.force(s);
+        const Vec3<Real> s = slip<Real>(row, system_.displacements), force = row.force(s);
         for (std::uint32_t k = 0; k < row.count; ++k) forces[row.nodes[k]] += row.weights[k] * force;
         const Vec3<Real> normal = row.pressing(s) * row.normal;
         if (force != Vec3<Real>(0)) acting_.push_back({row, normal, force - normal});
@@ -506,6 +507,7 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
         current.positions[n] = Vec4<Real>(Vec3<Real>(x) + d[n], x.w);
     });
     rigid_bodies_.move(previous.positions, d, current.positions);
+    for (ContactRow<Real>& row : system_.rows) row.turned = Vec3<Real>(0);  // displacements have it now
     for_each_index(d.size(), [&](std::size_t n) {
         const Vec4<Real> x = previous.positions[n], v = previous.velocities[n];
         if (x.w == Real(0)) {

@@ -54,9 +54,8 @@ Vec3<Real> IslandSolve<Real>::of_rows(std::uint32_t node) const {
 
 template <class Real>
 void IslandSolve<Real>::find_slips() {
-    for_each_index(rows_.count(), [&](std::size_t r) {
-        rows_.slips[r] = relative<Real>(rows_.rows[r], system_.displacements);
-    });
+    for_each_index(rows_.count(),
+                   [&](std::size_t r) { rows_.slips[r] = slip<Real>(rows_.rows[r], system_.displacements); });
 }
 
 template <class Real>
@@ -230,11 +229,24 @@ std::vector<Motion> IslandSolve<Real>::gather_base() const {
 }
 
 template <class Real>
+bool IslandSolve<Real>::joins_rigid_bodies() const {
+    return std::any_of(rows_.rows.begin(), rows_.rows.end(),
+                       [](const ContactRow<Real>& row) { return row.is_tie(); }) &&
+           std::any_of(bodies_.begin(), bodies_.end(),
+                       [&](std::uint32_t o) { return system_.model_->objects[o].is_rigid; });
+}
+
+template <class Real>
 void IslandSolve<Real>::rigid_newton(double tolerance) {
     if (rigid_.count() == 0 || rows_.count() == 0) return;
-    const auto found = rigid_.run(gather_base(), tolerance);
+    std::vector<Motion> begun(rigid_.count(), Motion::Zero());
+    for (std::size_t k = 0; k < bodies_.size(); ++k)
+        if (places_[k] != kNoNode && system_.model_->objects[bodies_[k]].is_rigid)
+            begun[places_[k]] = system_.rigid.rigid_part(bodies_[k], system_.inertia, system_.displacements);
+    const auto found = rigid_.run(gather_base(), begun, tolerance);
     counts_.rigid_rounds += found.rounds;
     counts_.line_searches += found.line_searches;
+    if (!found.is_balanced && joins_rigid_bodies()) ++counts_.failures;
     for_displacements(found.motions,
                       [&](std::size_t n, const Vec3<Real>& d) { system_.displacements[n] += d; });
 }
@@ -305,6 +317,10 @@ SolveCounts IslandSolve<Real>::run() {
             system_.base_[n] = system_.loads[n] - system_.inertia[n] * system_.displacements[n];
         });
         rigid_newton(tuning::kBalance);
+        const bool deforms = std::any_of(bodies_.begin(), bodies_.end(), [&](std::uint32_t o) {
+            return !system_.model_->objects[o].is_rigid;
+        });
+        if (!deforms) return counts_;
     }
     nodes_.for_each(
         [&](std::uint32_t n) { system_.elastic.displacements[n] = Vec4<Real>(system_.displacements[n], 0); });

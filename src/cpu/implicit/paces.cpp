@@ -26,12 +26,21 @@ void Paces<Real>::archive(Archive& archive) {
     archive.array(is_struck_);
 }
 
+// Which nothing but its inertia holds against the tie.
+template <class Real>
+bool Paces<Real>::ties_rigid_body(const ContactRow<Real>& row) const {
+    return row.is_tie() && (model_->objects[row.other].is_rigid ||
+                            (row.object != kNoNode && model_->objects[row.object].is_rigid));
+}
+
 template <class Real>
 std::uint32_t Paces<Real>::count_parts(std::span<const ContactRow<Real>> rows) const {
     Pace pace = Pace::still;
-    for (const ContactRow<Real>& row : rows)
+    for (const ContactRow<Real>& row : rows) {
+        if (row.is_tie() && !ties_rigid_body(row)) continue;
         for (const std::uint32_t o : {row.object, row.other})
             if (o != kNoNode && model_->is_body(o)) pace = std::min(pace, paces_[o]);
+    }
     return tuning::kParts[static_cast<std::size_t>(pace)];
 }
 
@@ -42,10 +51,15 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
                          TimeScheme<Real>& scheme) const {
     std::vector<Pace> paces(model_->body_count(), Pace::still);
     std::vector<std::uint8_t> is_struck(model_->body_count()), touches = is_struck, resolves = is_struck,
-                                                               attached = is_struck;
-    for (const ContactRow<Real>& row : rows)
-        (row.is_tie() ? attached
-                      : touches)[islands.of_bodies[model_->is_body(row.other) ? row.other : row.object]] = 1;
+                                                               rigid_ties = is_struck;
+    for (const ContactRow<Real>& row : rows) {
+        const std::uint32_t island = islands.of_bodies[model_->is_body(row.other) ? row.other : row.object];
+        if (!row.is_tie()) {
+            touches[island] = 1;
+        } else if (ties_rigid_body(row)) {
+            rigid_ties[island] = 1;  // nothing but these yields
+        }
+    }
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands.of_bodies[o];
         paces[island] = std::min(paces[island], paces_[o]);
@@ -60,13 +74,13 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
         const bool goes_on = has_past && pace == Pace::moving && is_struck[island] == 0 &&
                              (touches[island] == 0 || resolves[island] != 0);
         if (goes_on) {
-            scheme.set_second_order(o, step);
+            scheme.set_second_order(o, step, rigid_ties[island] != 0 ? 0.0 : tuning::kLeftOfFast);
         } else {
             scheme.set(o, step, pace == Pace::still ? static_cast<Real>(tuning::kRestingTime) : Real(0));
         }
         any_goes_on = any_goes_on || goes_on;
     }
-    scheme.tie(islands.of_bodies, attached);
+    scheme.tie(islands.of_bodies);
     for (ContactRow<Real>& row : rows) {
         const std::uint32_t body = model_->is_body(row.other) ? row.other : row.object;
         row.damping = scheme.of(body).damping / step * row.slope_of(row.gap);
@@ -99,7 +113,7 @@ void Paces<Real>::find(const StepSystem<Real>& system, std::span<const std::uint
     });
     for (std::size_t r = 0; r < system.rows.size(); ++r) {
         const ContactRow<Real>& row = system.rows[r];
-        const auto force = static_cast<double>(row.pressing(relative<Real>(row, system.displacements)));
+        const auto force = static_cast<double>(row.pressing(slip<Real>(row, system.displacements)));
         const auto speed = static_cast<double>(glm::dot(row.normal, system.rigid.relative(row, motions)));
         for (const std::uint32_t object : {row.object, row.other}) {
             if (object == kNoNode || !model_->is_body(object)) continue;

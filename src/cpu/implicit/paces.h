@@ -34,8 +34,8 @@ public:
     /// Hardly vibrates, and touches others but hardly goes towards or away from them.
     bool is_calm(std::size_t body) const { return paces_[body] != Pace::moving; }
 
-    /// Into how many parts a step is divided at least: into four where bodies that touch others move, two
-    /// where all are calm, one where all are still or nothing is near.
+    /// Into how many parts a step is divided at least: into four where bodies that touch others move, or
+    /// rigid ones are attached, two where all are calm, one where all are still or nothing is near.
     std::uint32_t count_parts(std::span<const ContactRow<Real>> rows) const;
 
     /// The scheme of each body, by island, and the dampers of contacts.
@@ -51,6 +51,8 @@ public:
 private:
     // Still ones are calm, and hardly move at all.
     enum class Pace : std::uint8_t { moving, calm, still };
+
+    bool ties_rigid_body(const ContactRow<Real>& row) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<Pace> paces_;  // of bodies

@@ -38,7 +38,7 @@ void Restitution<Real>::note(const Step& step, const RigidLevel<Real>& rigid, co
     };
     for (std::size_t r = 0; r < step.rows.size(); ++r) {
         const ContactRow<Real>& row = step.rows[r];
-        const auto force = static_cast<double>(row.pressing(relative<Real>(row, step.displacements)));
+        const auto force = static_cast<double>(row.pressing(slip<Real>(row, step.displacements)));
         if (!(force > 0.0) || row.object == row.other) continue;
         Pair pair{row.object == kNoNode ? model_->objects.size() + row.plane() : row.object, row.other};
         double side = 1.0;  // of the row's normal; nodes of either object may press faces of the other

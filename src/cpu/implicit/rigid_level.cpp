@@ -71,17 +71,16 @@ Vec3<Real> RigidLevel<Real>::relative(const ContactRow<Real>& row, std::span<con
 }
 
 template <class Real>
-Motion RigidLevel<Real>::rigid_part(const Body& body, std::span<const Vec4<Real>> positions,
-                                    std::span<const Real> inertia,
+Motion RigidLevel<Real>::rigid_part(std::size_t object, std::span<const Real> inertia,
                                     std::span<const Vec3<Real>> displacements) const {
-    const Range& nodes = model_->objects[body.object].nodes;
+    const Range& nodes = model_->objects[object].nodes;
     glm::dvec3 sum(0.0), moment(0.0);
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
         const glm::dvec3 d = static_cast<double>(inertia[n]) * glm::dvec3(displacements[n]);
         sum += d;
-        moment += glm::cross(glm::dvec3(positions[n]) - body.center, d);
+        moment += glm::cross(glm::dvec3(arms_[n]), d);
     }
-    return body.inverse * motion(sum, moment);
+    return inverse(object) * motion(sum, moment);
 }
 
 template <class Real>
@@ -90,7 +89,7 @@ void RigidLevel<Real>::follow_rotation(std::span<const Vec4<Real>> positions, st
                                        std::span<Vec3<Real>> forces) const {
     for_each_index(0, bodies_.size(), 1, [&](std::size_t b) {
         const Body& body = bodies_[b];
-        const Motion rigid = rigid_part(body, positions, inertia, displacements);
+        const Motion rigid = rigid_part(body.object, inertia, displacements);
         const glm::dvec3 w(rigid(3), rigid(4), rigid(5));
         const Range& nodes = model_->objects[body.object].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
@@ -106,7 +105,7 @@ void RigidLevel<Real>::rotate(std::span<const Vec4<Real>> positions, std::span<c
                               std::span<Vec3<Real>> displacements) const {
     for_each_index(0, bodies_.size(), 1, [&](std::size_t b) {
         const Body& body = bodies_[b];
-        const Motion rigid = rigid_part(body, positions, inertia, displacements);
+        const Motion rigid = rigid_part(body.object, inertia, displacements);
         const glm::dvec3 s(rigid(0), rigid(1), rigid(2)), w(rigid(3), rigid(4), rigid(5));
         const glm::dmat3 rotation = rotation_about(w);
         const Range& nodes = model_->objects[body.object].nodes;

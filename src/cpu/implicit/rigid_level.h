@@ -47,6 +47,9 @@ public:
         const Motion& m = motions[body_of_[node]];
         return Vec3<Real>(m(0), m(1), m(2)) + glm::cross(Vec3<Real>(m(3), m(4), m(5)), arms_[node]);
     }
+    /// The rigid part of displacements of a free body's nodes, by inertia. @param inertia as in begin()
+    Motion rigid_part(std::size_t object, std::span<const Real> inertia,
+                      std::span<const Vec3<Real>> displacements) const;
     /// What a step of true rotations differs by from a linear one, d = s + w x r, to second order, for the
     /// rotation w that inertia wants: the displacements w x (w x r) / 2 are taken out, and forces rotate with
     /// their bodies.
@@ -66,8 +69,6 @@ private:
         double weight = 0.0;  // m / h^2 of a mass of 1 kg [1/s^2]
         MotionMatrix matrix = MotionMatrix::Zero(), inverse = MotionMatrix::Zero();
     };
-    Motion rigid_part(const Body& body, std::span<const Vec4<Real>> positions, std::span<const Real> inertia,
-                      std::span<const Vec3<Real>> displacements) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> numbers_;  // of objects among the free bodies, or kNoNode

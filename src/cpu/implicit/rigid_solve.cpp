@@ -1,5 +1,6 @@
 #include "cpu/implicit/rigid_solve.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "cpu/contact/tuning.h"
+#include "cpu/implicit/rigid_bodies.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -35,6 +37,21 @@ glm::dvec3 rotation(const Motion& m) {
     return {m(3), m(4), m(5)};
 }
 
+// Of a symmetric matrix.
+glm::dmat3 positive_part(const glm::dmat3& m) {
+    Eigen::Matrix3d matrix;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) matrix(i, j) = m[j][i];
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(matrix);
+    glm::dmat3 part(0.0);
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 a(solved.eigenvectors()(0, k), solved.eigenvectors()(1, k),
+                           solved.eigenvectors()(2, k));
+        part += std::max(solved.eigenvalues()(k), 0.0) * glm::outerProduct(a, a);
+    }
+    return part;
+}
+
 double dot(std::span<const Motion> a, std::span<const Motion> b) {
     double sum = 0.0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
@@ -54,6 +71,8 @@ RigidSolve<Real>::RigidSolve(const Model& model, const RigidLevel<Real>& level,
       arms_(rows.count()),
       pair_of_row_(rows.count()),
       coupling_starts_(bodies_.size() + 1) {
+    for (const std::uint32_t o : bodies_) are_rigid_.push_back(model.objects[o].is_rigid ? 1 : 0);
+    turning_.resize(bodies_.size(), glm::dmat3(0.0));
     for (const RowPair& pair : pairs) {
         for (std::uint32_t r = pair.rows.first; r < pair.rows.end(); ++r)
             pair_of_row_[r] = static_cast<std::uint32_t>(pairs_.size());
@@ -79,6 +98,47 @@ RigidSolve<Real>::RigidSolve(const Model& model, const RigidLevel<Real>& level,
                 arms_[r][side] += (side == 0 ? -1.0 : 1.0) * static_cast<double>(row.weights[k]) *
                                   glm::dvec3(level_.arm(n));
         }
+    });
+    straight_arms_ = arms_;
+}
+
+// To where motions have brought rigid bodies.
+template <class Real>
+void RigidSolve<Real>::rotate(std::span<const Motion> motions) {
+    if (std::find(are_rigid_.begin(), are_rigid_.end(), 1) == are_rigid_.end()) return;
+    std::vector<glm::dmat3> rotations;
+    for (const Motion& m : motions) rotations.push_back(rotation_about(rotation(m)));
+    for_each_index(rows_.count(), [&](std::size_t r) {
+        glm::dvec3 turned(0.0);
+        for (std::size_t side = 0; side < 2; ++side) {
+            const std::uint32_t b = pairs_[pair_of_row_[r]].bodies[side];
+            if (b == kNoNode || are_rigid_[b] == 0) continue;
+            const glm::dvec3& arm = straight_arms_[r][side];
+            arms_[r][side] = rotations[b] * arm;
+            const glm::dvec3 more = arms_[r][side] - arm - glm::cross(rotation(motions[b]), arm);
+            turned += side == 0 ? -more : more;
+        }
+        rows_.slips[r] += Vec3<Real>(turned) - rows_.rows[r].turned;
+        rows_.rows[r].turned = Vec3<Real>(turned);
+    });
+}
+
+// By the forces of rows.
+template <class Real>
+void RigidSolve<Real>::find_turning() {
+    for_each_index(0, count(), 8, [&](std::size_t b) {
+        if (are_rigid_[b] == 0) return;
+        glm::dmat3 sum(0.0);
+        for (std::uint32_t c = coupling_starts_[b]; c < coupling_starts_[b + 1]; ++c) {
+            const auto& [p, side] = couplings_[c];
+            for (std::uint32_t r = pairs_[p].rows.first; r < pairs_[p].rows.end(); ++r) {
+                const glm::dvec3 f = (side == 0 ? -1.0 : 1.0) * glm::dvec3(rows_.forces[r]),
+                                 &arm = arms_[r][side];
+                const glm::dmat3 outer = 0.5 * glm::outerProduct(f, arm);
+                sum += glm::dmat3(glm::dot(f, arm)) - outer - glm::transpose(outer);
+            }
+        }
+        turning_[b] = positive_part(sum);
     });
 }
 
@@ -111,6 +171,8 @@ void RigidSolve<Real>::find_matrix() {
     inverses_.resize(count());
     for_each_index(0, count(), 8, [&](std::size_t b) {
         MotionMatrix& own = diagonal_[b] = level_.matrix(bodies_[b]);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) own(3 + i, 3 + j) += turning_[b][j][i];
         for (std::uint32_t c = coupling_starts_[b]; c < coupling_starts_[b + 1]; ++c) {
             const auto& [p, side] = couplings_[c];
             const Pair& pair = pairs_[p];
@@ -193,13 +255,14 @@ void RigidSolve<Real>::add_rows(std::span<Motion> sums) const {
 }
 
 template <class Real>
-Vec3<Real> RigidSolve<Real>::relative(std::size_t row, std::span<const Motion> motions) const {
+Vec3<Real> RigidSolve<Real>::relative(std::size_t row, const std::array<glm::dvec3, 2>& arms,
+                                      std::span<const Motion> motions) const {
     const std::array<std::uint32_t, 2>& bodies = pairs_[pair_of_row_[row]].bodies;
     glm::dvec3 s(0.0);
     for (std::size_t side = 0; side < 2; ++side) {
         if (bodies[side] == kNoNode) continue;
         const Motion& m = motions[bodies[side]];
-        const glm::dvec3 d = displacement(m) + glm::cross(rotation(m), arms_[row][side]);
+        const glm::dvec3 d = displacement(m) + glm::cross(rotation(m), arms[side]);
         s += side == 0 ? -d : d;
     }
     return Vec3<Real>(s);
@@ -212,7 +275,8 @@ bool RigidSolve<Real>::is_balanced(double tolerance, std::span<const Motion> for
     for (const Pair& pair : pairs_) {
         double sum = 0.0;
         for (std::uint32_t r = pair.rows.first; r < pair.rows.end(); ++r)
-            sum += static_cast<double>(rows_.rows[r].pressing(rows_.slips[r]));
+            sum += rows_.rows[r].is_tie() ? glm::length(glm::dvec3(rows_.forces[r]))
+                                          : static_cast<double>(rows_.rows[r].pressing(rows_.slips[r]));
         for (const std::uint32_t b : pair.bodies)
             if (b != kNoNode) pressing[b] += sum;
     }
@@ -223,6 +287,10 @@ bool RigidSolve<Real>::is_balanced(double tolerance, std::span<const Motion> for
         const double scale =
             weight > 0.0 ? std::min(pressing[b], 2.0 * weight) + 0.05 * pressing[b] : pressing[b];
         if (forces[b].template head<3>().norm() > tolerance * scale) return false;
+        if (are_rigid_[b] == 0) continue;
+        const MotionMatrix& inertia = level_.matrix(bodies_[b]);
+        const double radius = std::sqrt(inertia.diagonal().template tail<3>().sum() / (2.0 * inertia(0, 0)));
+        if (forces[b].template tail<3>().norm() > tolerance * scale * radius) return false;
     }
     return true;
 }
@@ -230,9 +298,12 @@ bool RigidSolve<Real>::is_balanced(double tolerance, std::span<const Motion> for
 // The limits of friction stay as they are until bodies are nearly in balance (Tresca's friction), since what
 // presses before that has little to do with what will.
 template <class Real>
-typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base, double tolerance) {
+typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base,
+                                                        std::span<const Motion> begun, double tolerance) {
     Result result;
     result.motions.assign(count(), Motion::Zero());
+    std::vector<Motion> all(begun.begin(), begun.end());
+    rotate(all);
     std::vector<Vec3<Real>> changes(rows_.count());
     const auto forces = [&] {
         rows_.find_forces();
@@ -245,22 +316,34 @@ typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base
         if (is_balanced(tuning::kNearBalance, step)) {
             rows_.set_limits();
             step = forces();
-            if (result.rounds > 0 && is_balanced(tolerance, step)) break;
+            result.is_balanced = is_balanced(tolerance, step);
+            if (result.rounds > 0 && result.is_balanced) break;
         }
         rows_.find_tangents();
+        find_turning();
         find_matrix();
         solve(step, tuning::kRigidForcing);
         for_each_index(rows_.count(), [&](std::size_t r) { changes[r] = relative(r, step); });
         std::vector<Motion> resistance(count());
-        for (std::size_t b = 0; b < count(); ++b) resistance[b] = level_.matrix(bodies_[b]) * step[b];
-        const double part = rows_.line_search(changes, dot(step, base), dot(step, resistance));
+        double turning = 0.0, most_turn = tuning::kMostTurn;
+        for (std::size_t b = 0; b < count(); ++b) {
+            resistance[b] = level_.matrix(bodies_[b]) * step[b];
+            if (are_rigid_[b] != 0) most_turn = std::max(most_turn, glm::length(rotation(step[b])));
+            turning += glm::dot(rotation(step[b]), turning_[b] * rotation(step[b]));
+        }
+        const double part =
+            std::min(rows_.line_search(changes, dot(step, base), dot(step, resistance) + turning),
+                     tuning::kMostTurn / most_turn);
         if (part < 1.0) ++result.line_searches;
         for (std::size_t b = 0; b < count(); ++b) {
             result.motions[b] += part * step[b];
+            all[b] += part * step[b];
             base[b] -= part * resistance[b];
         }
-        for_each_index(rows_.count(),
-                       [&](std::size_t r) { rows_.slips[r] += static_cast<Real>(part) * changes[r]; });
+        for_each_index(rows_.count(), [&](std::size_t r) {
+            rows_.slips[r] += static_cast<Real>(part) * relative(r, straight_arms_[r], step);
+        });
+        rotate(all);
     }
     return result;
 }

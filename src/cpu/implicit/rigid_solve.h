@@ -18,6 +18,10 @@ namespace gelatin::cpu {
 /// for their balance. The matrix of a step of it is E = W^T (M / h^2 + rows) W, as elements hardly resist
 /// rigid motions; conjugate gradients solve it, with the blocks of bodies as preconditioner. Motions and
 /// their forces have shape [bodies].
+///
+/// Bodies that are rigid rotate truly: the arms of their rows do with the rotation R found so far, and s gets
+/// what R r differs by from r + w x r (ContactRow::turned). To E comes how the moment of a row's force f on
+/// the body changes by that: G = (f . r) 1 - (f r^T + r f^T) / 2, as far as it is positive.
 template <class Real>
 class RigidSolve {
 public:
@@ -40,15 +44,19 @@ public:
     /// Adds W^T of the forces of rows.
     void add_rows(std::span<Motion> sums) const;
     /// s of a row for motions.
-    Vec3<Real> relative(std::size_t row, std::span<const Motion> motions) const;
+    Vec3<Real> relative(std::size_t row, std::span<const Motion> motions) const {
+        return relative(row, arms_[row], motions);
+    }
 
     struct Result {
         std::vector<Motion> motions;
         int rounds = 0, line_searches = 0;
+        bool is_balanced = false;
     };
-    /// Newton's method; slips follow. @param base forces of all but rows, where it begins @param tolerance
-    /// forces that may be left on a body, as a part of what presses it
-    Result run(std::vector<Motion> base, double tolerance);
+    /// Newton's method; slips follow. @param base forces of all but rows, where it begins @param begun
+    /// motions of rigid bodies that displacements have already; others do not count @param tolerance forces
+    /// that may be left on a body, as a part of what presses it
+    Result run(std::vector<Motion> base, std::span<const Motion> begun, double tolerance);
 
 private:
     // The places of its bodies, or kNoNode; of a body with itself none: its rows hardly resist its motion.
@@ -64,13 +72,19 @@ private:
         std::uint32_t pair, side;  // of the body itself
     };
     std::vector<Motion> multiply(std::span<const Motion> motions) const;
+    void rotate(std::span<const Motion> motions);
+    void find_turning();
+    Vec3<Real> relative(std::size_t row, const std::array<glm::dvec3, 2>& arms,
+                        std::span<const Motion> motions) const;
     bool is_balanced(double tolerance, std::span<const Motion> forces) const;
 
     const Model& model_;
     const RigidLevel<Real>& level_;
     const IslandRows<Real>& rows_;
-    std::vector<std::uint32_t> bodies_;            // objects
-    std::vector<std::array<glm::dvec3, 2>> arms_;  // of rows, from their bodies' centres [m]
+    std::vector<std::uint32_t> bodies_;  // objects
+    std::vector<std::uint8_t> are_rigid_;
+    std::vector<std::array<glm::dvec3, 2>> arms_, straight_arms_;  // of rows, from their bodies' centres [m]
+    std::vector<glm::dmat3> turning_;                              // G of bodies
     std::vector<Pair> pairs_;
     std::vector<std::uint32_t> pair_of_row_;
     std::vector<std::uint32_t> coupling_starts_;  // by body

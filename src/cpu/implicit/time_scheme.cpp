@@ -34,16 +34,17 @@ void TimeScheme<Real>::forget() {
 }
 
 template <class Real>
-void TimeScheme<Real>::tie(std::span<const std::uint32_t> islands_of_bodies,
-                           std::span<const std::uint8_t> attached) {
-    std::vector<std::uint8_t> any_past(tied_.size()), any_euler(tied_.size());
-    for (std::size_t o = 0; o < tied_.size(); ++o)
-        (schemes_[o].past > Real(0) ? any_past : any_euler)[tied_[o]] = 1;
+void TimeScheme<Real>::tie(std::span<const std::uint32_t> islands_of_bodies) {
+    std::vector<std::uint8_t> any_euler(tied_.size()), differ(tied_.size());
+    for (std::size_t o = 0; o < tied_.size(); ++o) {
+        const Scheme &own = schemes_[o], &first = schemes_[tied_[o]];
+        if (own.past == Real(0)) any_euler[tied_[o]] = 1;
+        if (own.past != first.past || own.alpha != first.alpha) differ[tied_[o]] = 1;
+    }
     DisjointSets sets(tied_.size());
     for (std::uint32_t o = 0; o < tied_.size(); ++o) {
         const std::uint32_t least = tied_[o];
-        schemes_[o].is_whole =
-            attached[islands_of_bodies[o]] != 0 || (any_past[least] != 0 && any_euler[least] != 0);
+        schemes_[o].is_whole = differ[least] != 0;
         if (any_euler[least] == 0) sets.unite(o, least);
         sets.unite(o, islands_of_bodies[o]);
     }
@@ -111,8 +112,8 @@ void TimeScheme<Real>::set(std::size_t object, Real step, Real damping) {
 }
 
 template <class Real>
-void TimeScheme<Real>::set_second_order(std::size_t object, Real step) {
-    const auto alpha = static_cast<Real>((1.0 - tuning::kLeftOfFast) / (1.0 + tuning::kLeftOfFast));
+void TimeScheme<Real>::set_second_order(std::size_t object, Real step, double left) {
+    const auto alpha = static_cast<Real>((1.0 - left) / (1.0 + left));
     schemes_[object] = {.length = step,
                         .step = Real(0.5) * step * std::sqrt(Real(1) + alpha),
                         .past = Real(1),
@@ -194,6 +195,7 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
         const glm::dvec3 origin(current.positions[model_->objects[g].nodes.first]);
         RigidSums sums;
         Moving had, has;
+        Momenta before;  // how fast they changed
         const auto for_nodes = [&](const auto& visit) {
             for (const std::uint32_t o : bodies)
                 for (std::uint32_t n = model_->objects[o].nodes.first; n < model_->objects[o].nodes.end();
@@ -208,13 +210,16 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
             had.add(began_[o]);
             has.add(moving(o, current.positions, current.velocities));
         }
+        for (const std::uint32_t o : bodies) {
+            before.linear += rates_[o].linear;
+            before.angular += rates_[o].angular + glm::cross(began_[o].center - had.center, rates_[o].linear);
+        }
         const RigidInertia inertia(sums);
         const Scheme s = of_momenta(g);
         const auto h = static_cast<double>(s.length), past = static_cast<double>(s.past),
                    alpha = static_cast<double>(s.alpha), gamma = static_cast<double>(s.gamma);
         const glm::dvec3 weight = glm::dvec3(model_->gravity) / inertia.inverse_mass;
         const Momenta forces_now{sums.force + weight, sums.moment - glm::cross(inertia.center, sums.force)};
-        const Momenta before = bodies.size() == 1 ? rates_[g] : Momenta();
         const auto lacking = [&](glm::dvec3 Momenta::*part) {
             const glm::dvec3 now = (forces_now.*part + past * alpha * before.*part) / (1.0 + alpha);
             return had.momenta.*part + h * (past * (1.0 - gamma) * before.*part + gamma * now) -

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/archive.h"
+#include "cpu/contact/tuning.h"
 #include "cpu/implicit/rigid_level.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
@@ -48,14 +49,13 @@ public:
     bool has_past() const { return last_step_ > Real(0); }  ///< whether there is an a_0
     /// Euler's for an object, for a step of this length. @param damping the least damping time [s]
     void set(std::size_t object, Real step, Real damping);
-    /// Or the other.
-    void set_second_order(std::size_t object, Real step);
+    /// Or the other. @param left what it leaves of fast vibrations in a step, with their sign reversed
+    void set_second_order(std::size_t object, Real step, double left = tuning::kLeftOfFast);
     const Scheme& of(std::size_t object) const { return schemes_[object]; }
     /// When all schemes are set. Of a force this scheme leaves a part to later steps, of a body and of what
     /// it touched alike. So where bodies that touched each other go on by different schemes, what is left is
     /// dropped for all of them. @param islands_of_bodies of each body the least one of its island
-    /// @param attached islands: of their momenta nothing is left
-    void tie(std::span<const std::uint32_t> islands_of_bodies, std::span<const std::uint8_t> attached);
+    void tie(std::span<const std::uint32_t> islands_of_bodies);
     /// y - x of a node [m]. @param acceleration g [m/s^2]
     Vec3<Real> target(const Nodes<Real>& previous, std::size_t node, const Vec3<Real>& acceleration) const;
     /// At the end, if it was displaced by so much [m/s].
