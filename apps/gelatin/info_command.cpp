@@ -73,6 +73,7 @@ Json describe_scene(const std::filesystem::path& file) {
             {"nodes", object.nodes.count}, {"springs", object.springs.count},
             {"faces", object.faces.count}, {"tets", object.tets.count},
             {"mass", object.mass},         {"volume", object.rest_volume}};
+        if (object.is_rigid) description["objects"][object.name]["rigid"] = true;
     }
     return description;
 }

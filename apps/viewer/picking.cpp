@@ -74,7 +74,7 @@ std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::
 Pull take_hold(const Model& model, std::span<const float> positions, const Pick& pick) {
     const ModelObject& object = model.objects[pick.object];
     const std::vector<std::uint32_t> carrying = carrying_nodes(model, pick.face);
-    const float reach = reach_of_hand(object.nodes, positions);
+    const float reach = reach_of_hand(object.shape_nodes(), positions);
     Pull pull;
     double sum = 0.0;
     for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {

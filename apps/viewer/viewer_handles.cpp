@@ -66,6 +66,8 @@ void ViewerApp::pin() {
     } else if (hand_depth_) {
         const SphereRegion region = session_->held_region();
         const std::size_t object = object_of(session_->model(), session_->held_node());
+        if (session_->model().objects[object].is_rigid)
+            return notify("a rigid body has no pins: an attachment holds it");
         if (is_taken(session_->model(), object, region)) return notify("there is a pin already");
         HandleDescription handle;
         handle.region = region;

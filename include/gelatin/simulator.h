@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
@@ -58,6 +59,7 @@ struct ObjectInfo {
     IndexRange tets;           ///< of Simulator::tets
     double mass = 0.0;         ///< [kg]
     double rest_volume = 0.0;  ///< [m^3]
+    bool is_rigid = false;     ///< without tets; four of its nodes are on no face
 };
 
 /// Nodes, faces and edges that were near each other in a step, before its response.
@@ -171,8 +173,8 @@ public:
     void show_recorded(std::size_t index);
 
     /// Continues from the state of another simulation, with the masses, materials and settings of this one's
-    /// own scene. Bodies with the same name and tets get the other one's positions, velocities and drags;
-    /// other bodies start as their scene says.
+    /// own scene. Bodies with the same name and tets, or the same faces if rigid, get the other one's
+    /// positions, velocities and drags; other bodies start as their scene says.
     void go_on_from(const Simulator& other);
 
     /// The bodies come first in every array of objects, in the order of Scene::objects.
@@ -180,8 +182,13 @@ public:
     std::size_t object_index(std::string_view name) const;
     /// @param object index of a body @throws InvalidInput if there is none
     ObjectInfo object(std::size_t object) const;
-    /// The boundary triangles of all objects' tets: nodes, counter-clockwise from outside; shape [faces].
-    /// They never change, and the spans are valid as long as the simulator, until set_material or pin.
+    /// How far a body is rotated from where the scene places it at the start: the rotation nearest to where
+    /// its nodes are, in the mean of their masses; a unit quaternion. @throws InvalidInput if there is no
+    /// such body
+    glm::dquat rotation(std::size_t object) const;
+    /// The boundary triangles of all objects' tets, and those of rigid bodies: nodes, counter-clockwise from
+    /// outside; shape [faces]. They never change, and the spans are valid as long as the simulator, until
+    /// set_material or pin.
     std::span<const glm::uvec3> faces() const;
     /// The nodes of all tets; shape [tets]. As faces().
     std::span<const glm::uvec4> tets() const;
@@ -199,11 +206,13 @@ public:
     std::vector<ContactForce> contact_forces() const;
 
     // What programs change between steps. Each throws InvalidInput, and then nothing has changed: for an
-    // object that is no body, a wrong number of values, values that are not finite.
+    // object that is no body, a wrong number of values, values that are not finite. A rigid body takes the
+    // pose, or the velocity and spin, that are nearest to the values, in the mean of its nodes' masses.
 
-    /// Puts an object's nodes somewhere else, with the velocities that they have [m]; shape [nodes of the
-    /// object]. Held nodes stay where their pin or handle has them. With CollisionResponse::contact bodies
-    /// that overlap afterwards are moved apart, as at the start, each with a warning.
+    /// Puts an object's nodes somewhere else, with the velocities that they have, a rigid body with its
+    /// velocity and spin [m]; shape [nodes of the object]. Held nodes stay where their pin or handle has
+    /// them. With CollisionResponse::contact bodies that overlap afterwards are moved apart, as at the start,
+    /// each with a warning.
     /// @throws InvalidInput if they cannot be moved apart, or a body overlaps itself where
     ///   CollisionSettings::self_collision
     void set_positions(std::size_t object, std::span<const glm::vec3> positions);

@@ -35,13 +35,18 @@ class Body:
         self.nodes = slice(*fields["nodes"])
         self._faces = slice(*fields["faces"])
         self._tets = slice(*fields["tets"])
-        #: [kg]
-        self.mass: float = fields["mass"]
         #: [m^3]
         self.rest_volume: float = fields["rest_volume"]
+        #: whether it has no tets, and moves as a whole
+        self.is_rigid: bool = fields["is_rigid"]
 
     def __repr__(self) -> str:
         return f"<gelatin.Body '{self.name}': {counted(len(self), 'node')}>"
+
+    @property
+    def mass(self) -> float:
+        """[kg]"""
+        return float(self._simulator._objects[self.name]["mass"])
 
     def __len__(self) -> int:
         """The number of nodes."""
@@ -74,7 +79,7 @@ class Body:
 
     @property
     def tets(self) -> npt.NDArray[np.uint32]:
-        """By the body's own nodes, shape (tets, 4)."""
+        """By the body's own nodes, shape (tets, 4). A rigid body has none."""
         return self._simulator.tets[self._tets] - np.uint32(self.nodes.start)
 
     @property
@@ -88,10 +93,27 @@ class Body:
         return _mean(self.velocities, self.masses)
 
     @property
+    def rotation(self) -> npt.NDArray[np.float64]:
+        """The rotation from the start that is nearest to where its nodes are, in the mean of their masses, shape (3, 3).
+
+        It rotates columns: `rest_positions @ rotation.T` has the present orientation.
+        """
+        return np.array(self._simulator._core.rotation(self._index)).reshape(3, 3)
+
+    @property
+    def spin(self) -> npt.NDArray[np.float64]:
+        """The angular velocity about the centre of mass, from the angular momentum [degrees/s], shape (3,)."""
+        masses = self.masses.astype(np.float64)[:, None]
+        arms = self.positions - self.center
+        momentum = (masses * np.cross(arms, self.velocities)).sum(axis=0)
+        square = (masses * arms).T @ arms
+        return np.asarray(np.degrees(np.linalg.solve(np.trace(square) * np.eye(3) - square, momentum)))
+
+    @property
     def volume(self) -> float:
-        """[m^3]"""
-        a, b, c, d = self.positions[self.tets.T].astype(np.float64)
-        return float(np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)).sum() / 6.0)
+        """What the surface encloses [m^3]."""
+        a, b, c = self.positions[self.faces.T] - self.center
+        return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
 
     @property
     def contact_forces(self) -> Array:
@@ -112,12 +134,16 @@ class Body:
     def set_positions(self, positions: npt.ArrayLike) -> None:
         """Puts the nodes somewhere else [m], shape (nodes, 3), with the velocities that they have.
 
-        Held nodes stay. With contact, bodies that overlap afterwards are moved apart, as at the start.
+        A rigid body takes the nearest pose, in the mean of its nodes' masses, and keeps its velocity and spin. Held nodes
+        stay. With contact, bodies that overlap afterwards are moved apart, as at the start.
         """
         self._simulator._core.set_positions(self._index, self._vectors(positions, "positions"))
 
     def set_velocity(self, velocity: npt.ArrayLike) -> None:
-        """Sets the velocity of all nodes [m/s], shape (3,), or of each, shape (nodes, 3). Held nodes keep theirs."""
+        """Sets the velocity of all nodes [m/s], shape (3,), or of each, shape (nodes, 3). Held nodes keep theirs.
+
+        A rigid body takes the velocity and spin of the same momentum and angular momentum.
+        """
         self._simulator._core.set_velocities(self._index, self._vectors(velocity, "velocity"))
 
     def set_force(self, force: npt.ArrayLike) -> None:

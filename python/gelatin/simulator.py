@@ -66,12 +66,15 @@ class Simulator:
     def _begin(self, core: _gelatin.Simulator, scene: Scene) -> None:
         self.scene = scene
         self._core = core
-        self._objects = {fields["name"]: fields for fields in self._core.objects()}
+        self._objects = self._read_objects()
         self._hands: list[Hand] = []
         self._forced: set[int] = set()  # indices of objects
         self._attached = 0  # attachments of programs
         self._step_callbacks: list[Callable[[Simulator], object]] = []
         self._frame_callbacks: list[Callable[[Simulator], object]] = []
+
+    def _read_objects(self) -> dict[str, dict[str, Any]]:
+        return {fields["name"]: fields for fields in self._core.objects()}
 
     def __repr__(self) -> str:
         bodies, nodes = counted(len(self._objects), "body", "bodies"), counted(len(self.masses), "node")
@@ -259,6 +262,7 @@ class Simulator:
         self._core.set_material(changed)
         materials = [changed if material is found[0] else material for material in self.scene.materials]
         self.scene = dataclasses.replace(self.scene, materials=materials)
+        self._objects = self._read_objects()
 
     # Attachments
 

@@ -1,6 +1,8 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "arrays.h"
 #include "bindings.h"
 #include "python_simulator.h"
@@ -64,6 +66,7 @@ nb::list objects_of(PythonSimulator& self) {
             fields["tets"] = ends(object.tets);
             fields["mass"] = object.mass;
             fields["rest_volume"] = object.rest_volume;
+            fields["is_rigid"] = object.is_rigid;
             all.append(fields);
         }
         return all;
@@ -127,12 +130,20 @@ void bind_simulator(nb::module_& module) {
                  return view_of(&model.faces[0].a, body_face_count(model), 3, owner);
              }))
         .def("tets", model_view([](const Model& model, const Owner& owner) {
-                 return view_of(&model.tets[0].x, model.tets.size(), 4, owner);
+                 return view_of(model.tets.empty() ? nullptr : &model.tets[0].x, model.tets.size(), 4, owner);
              }))
         .def("masses", model_view([](const Model& model, const Owner& owner) {
                  return Numbers(model.masses.data(), {model.body_node_count()}, capsule_of(owner));
              }))
         .def("objects", &objects_of, nb::sig("def objects(self) -> list[dict[str, typing.Any]]"))
+        .def(
+            "rotation",
+            [](PythonSimulator& self, std::size_t object) {
+                const glm::dmat3 r =
+                    self.use([&](const Simulator& s) { return glm::mat3_cast(s.rotation(object)); });
+                return nb::make_tuple(r[0].x, r[1].x, r[2].x, r[0].y, r[1].y, r[2].y, r[0].z, r[1].z, r[2].z);
+            },
+            nb::arg("object"), nb::sig("def rotation(self, object: int) -> tuple[float, ...]"))
         .def(
             "attachments",
             [](PythonSimulator& self) {

@@ -36,11 +36,14 @@ struct ModelObject {
     std::string name;
     Range nodes, springs, faces, tets, handle_nodes;
     Range neo_hookean_tets;    ///< all of its tets, or none
-    bool is_rigid = false;     ///< a body without springs and tets; four of its nodes are on no face
+    bool is_rigid = false;     ///< a body without springs and tets; its last four nodes are on no face
     double mass = 0.0;         ///< [kg]
     double rest_volume = 0.0;  ///< [m^3]
     glm::vec3 color{0.0f};     ///< linear RGB; negative if the scene gives none
     BodySurface surface;       ///< of a body
+
+    /// Without those four, which have a rigid body's mass, and with a large inertia are outside of it.
+    Range shape_nodes() const { return {nodes.first, is_rigid ? nodes.count - 4 : nodes.count}; }
 };
 
 /// What a collider's surface has besides its nodes and faces. It has no springs, tets and mass, and all of

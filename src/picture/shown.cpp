@@ -150,7 +150,7 @@ void Shown::add() {
     }
     std::vector<Bounds> bodies;
     for (const ModelObject& body : model.bodies())
-        if (const Bounds bounds = bounds_of(part(last_, body.nodes)); is_finite(bounds))
+        if (const Bounds bounds = bounds_of(part(last_, body.shape_nodes())); is_finite(bounds))
             bodies.push_back(bounds);
     follow(std::move(bodies));
 }

@@ -21,8 +21,13 @@ void BodyOverlay::prepare(const OverlayView& overlay) {
 
 void BodyOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     const Clipping clipping(frame.bodies.surfaces);
-    if (bodies.overlay.color_map) return draw_colored(frame, bodies, *colored_program_);
-    cut_light_->draw(frame, {&frame.bodies});
+    if (frame.bodies.surfaces.is_cut()) glDisable(GL_CULL_FACE);  // what has no tets is hollow
+    if (bodies.overlay.color_map) {
+        draw_colored(frame, bodies, *colored_program_);
+    } else {
+        cut_light_->draw(frame, {&frame.bodies});
+    }
+    glEnable(GL_CULL_FACE);
 }
 
 void BodyOverlay::draw_pressed(const Frame& frame, const RenderView& bodies) const {

@@ -1,15 +1,34 @@
 #include "sim/carry_over.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
+
+#include "sim/body_pose.h"
 
 namespace gelatin {
 namespace {
 
-bool have_the_same_tets(const Model& a, const ModelObject& in_a, const Model& b, const ModelObject& in_b) {
-    if (in_a.nodes.count != in_b.nodes.count || in_a.tets.count != in_b.tets.count) return false;
+// By a body's own nodes. Their order depends on where they are.
+std::vector<std::array<std::uint32_t, 3>> sorted_faces(const Model& model, const ModelObject& object) {
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    for (std::uint32_t f = object.faces.first; f < object.faces.end(); ++f) {
+        const Face& face = model.faces[f];
+        const std::uint32_t first = object.nodes.first;
+        faces.push_back({face.a - first, face.b - first, face.c - first});
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+bool have_the_same_mesh(const Model& a, const ModelObject& in_a, const Model& b, const ModelObject& in_b) {
+    if (in_a.is_rigid != in_b.is_rigid || in_a.nodes.count != in_b.nodes.count ||
+        in_a.tets.count != in_b.tets.count)
+        return false;
+    if (in_a.is_rigid) return sorted_faces(a, in_a) == sorted_faces(b, in_b);
     for (std::uint32_t t = 0; t < in_a.tets.count; ++t) {
         if (a.tets[in_a.tets.first + t] - in_a.nodes.first != b.tets[in_b.tets.first + t] - in_b.nodes.first)
             return false;
@@ -27,9 +46,17 @@ void copy_vectors(const std::vector<glm::vec4>& from, const Range& range, std::v
 const ModelObject* find_same(const Model& from, const Model& to, const ModelObject& object) {
     const auto bodies = from.bodies();
     const auto same = std::find_if(bodies.begin(), bodies.end(), [&](const ModelObject& other) {
-        return other.name == object.name && have_the_same_tets(from, other, to, object);
+        return other.name == object.name && have_the_same_mesh(from, other, to, object);
     });
     return same == bodies.end() ? nullptr : &*same;
+}
+
+// Where another model places a body, or what it weighs, its nodes inside may be elsewhere.
+bool has_the_same_nodes(const Model& a, const Range& in_a, const Model& b, const Range& in_b) {
+    const auto part = [](const auto& values, const Range& range) {
+        return std::span(values).subspan(range.first, range.count);
+    };
+    return std::ranges::equal(part(a.positions, in_a), part(b.positions, in_b));
 }
 
 // The nodes of a handle, in ascending order, by their index in the object.
@@ -82,6 +109,9 @@ State carried_over(const Model& from, const State& state, const Model& to, State
         copy_vectors(state.velocities, same->nodes, start.velocities, object.nodes.first);
         if (has_earlier)
             copy_vectors(state.earlier_velocities, same->nodes, start.earlier_velocities, object.nodes.first);
+        if (object.is_rigid && !has_the_same_nodes(from, same->nodes, to, object.nodes))
+            put_rigid(to, object, nearest_pose_of_surface(to, object, start.positions), glm::dvec3(0.0),
+                      start);
     }
     for (const HandleNode& held : to.handle_nodes) {
         if (std::isinf(to.handles[held.handle].release))

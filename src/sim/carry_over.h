@@ -6,9 +6,9 @@
 
 namespace gelatin {
 
-/// The state `start` of the model `to`, in which bodies with the same name and tets get the positions and
-/// velocities of those of `from` in `state`. Masses and damping times are those of `to`; held nodes begin at
-/// rest.
+/// The state `start` of the model `to`, in which bodies with the same name and tets, or rigid ones with the
+/// same faces, get the positions and velocities of those of `from` in `state`. Masses and damping times are
+/// those of `to`; held nodes begin at rest.
 State carried_over(const Model& from, const State& state, const Model& to, State start);
 
 /// `start` with the handles of the bodies that `state` has taken from `from`: handles that hold the same

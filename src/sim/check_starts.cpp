@@ -86,7 +86,7 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
         std::size_t others = 0;
         for (const ModelObject& object : model.bodies()) {
             const auto of_object = [&](std::span<const glm::vec4> nodes) {
-                return nodes.subspan(object.nodes.first, object.nodes.count);
+                return nodes.subspan(object.nodes.first, object.shape_nodes().count);
             };
             const Depth found = deepest(collider, of_object(positions));
             if (found.depth == 0.0) continue;
@@ -129,6 +129,7 @@ std::vector<std::string> find_tangled(const std::shared_ptr<const Model>& model,
     cpu::Collision<double> collision(model);
     collision.update_boxes(exact);
     for (std::uint32_t o = 0; o < model->body_count(); ++o) {
+        if (model->objects[o].is_rigid) continue;  // it does not press itself
         const std::size_t overlaps = count_own_overlaps(*model, o, collision, exact);
         if (overlaps == 0) continue;
         lines.push_back(

@@ -25,6 +25,15 @@ double energy_out_of_shape(const Model& model) {
     return sum;
 }
 
+// Of rigid bodies that move by their size in a sixtieth of a second: as contact may push them apart.
+double energy_of_pushed(const Model& model) {
+    constexpr double kRate = 60.0;
+    double sum = 0.0;
+    for (const ModelObject& body : model.bodies())
+        if (body.is_rigid) sum += 0.5 * body.mass * std::pow(kRate * std::cbrt(body.rest_volume), 2);
+    return sum;
+}
+
 // The largest force of all loads together on each node [N].
 double most_load(const Model& model, const LoadedNode& loaded) {
     constexpr double kGrowth = 4.0;  // of a face
@@ -67,7 +76,7 @@ double drive_of_loads(const Model& model) {
 }  // namespace
 
 EnergyBudget::EnergyBudget(const Model& model, const Account& start)
-    : allowance_(energy_out_of_shape(model)),
+    : allowance_(energy_out_of_shape(model) + energy_of_pushed(model)),
       gravity_drive_(drive_of_gravity(model)),
       load_drive_(drive_of_loads(model)),
       start_(start),

@@ -14,9 +14,9 @@ namespace gelatin {
 /// is unknown: the budget must start anew afterwards.
 ///
 /// Numbers are not exact, and bodies that start inside a collider are pushed out of it. So there is an
-/// allowance: the energy of springs and tets at twice their length and of volumes compressed to zero, and a
-/// factor of ten. A simulation that explodes multiplies its energy by a factor in each step, and soon exceeds
-/// that.
+/// allowance: the energy of springs and tets at twice their length and of volumes compressed to zero, of
+/// rigid bodies that move by their size in a sixtieth of a second, and a factor of ten. A simulation that
+/// explodes multiplies its energy by a factor in each step, and soon exceeds that.
 class EnergyBudget {
 public:
     /// The energy of the whole scene at one moment.

@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PLY and VTU are written in memory order");
 
-constexpr std::uint8_t kVtkTetra = 10;
+constexpr std::uint8_t kVtkTriangle = 5, kVtkTetra = 10;
 
 std::string base64(const std::string& bytes) {
     constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -61,23 +61,36 @@ std::string data_array(const char* type, const std::string& attributes, std::spa
                        base64(head_bytes), base64(bytes));
 }
 
-std::string vtu_cells(const Model& model) {
+std::string vtu_cells(const Model& model, std::span<const Face> rigid_faces) {
     std::vector<std::int64_t> connectivity, offsets;
-    std::vector<std::int32_t> object_of_tet;
+    std::vector<std::int32_t> objects;
     connectivity.reserve(4 * model.tets.size());
     for (const glm::uvec4& tet : model.tets) {
         for (int corner = 0; corner < 4; ++corner) connectivity.push_back(tet[corner]);
         offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
     }
     for (std::size_t o = 0; o < model.objects.size(); ++o) {
-        object_of_tet.insert(object_of_tet.end(), model.objects[o].tets.count, static_cast<std::int32_t>(o));
+        objects.insert(objects.end(), model.objects[o].tets.count, static_cast<std::int32_t>(o));
     }
-    const std::vector<std::uint8_t> types(model.tets.size(), kVtkTetra);
+    std::vector<std::uint8_t> types(model.tets.size(), kVtkTetra);
+    for (const Face& face : rigid_faces) {
+        connectivity.insert(connectivity.end(), {face.a, face.b, face.c});
+        offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+        objects.push_back(static_cast<std::int32_t>(face.object));
+        types.push_back(kVtkTriangle);
+    }
     return "<Cells>\n" + data_array<std::int64_t>("Int64", "Name=\"connectivity\"", connectivity) +
            data_array<std::int64_t>("Int64", "Name=\"offsets\"", offsets) +
            data_array<std::uint8_t>("UInt8", "Name=\"types\"", types) +
            "</Cells>\n<CellData Scalars=\"object\">\n" +
-           data_array<std::int32_t>("Int32", "Name=\"object\"", object_of_tet);
+           data_array<std::int32_t>("Int32", "Name=\"object\"", objects);
+}
+
+std::vector<Face> faces_of_rigid_bodies(const Model& model) {
+    std::vector<Face> faces;
+    std::copy_if(model.faces.begin(), model.faces.end(), std::back_inserter(faces),
+                 [&](const Face& face) { return model.objects[face.object].is_rigid; });
+    return faces;
 }
 
 std::string ply_faces(std::span<const Face> faces) {
@@ -132,7 +145,8 @@ ExportTopology make_export_topology(const Model& model) {
     topology.vertices = drawn.points;
     topology.face_count = drawn.faces.size();
     topology.node_count = model.body_node_count();
-    topology.tet_count = model.tets.size();
+    const std::vector<Face> rigid_faces = faces_of_rigid_bodies(model);
+    topology.cell_count = model.tets.size() + rigid_faces.size();
     ObjLook look(drawn.look);
     for (std::size_t o = 0; o < model.objects.size(); ++o) {
         const SkinObject& object = drawn.objects[o];
@@ -143,7 +157,7 @@ ExportTopology make_export_topology(const Model& model) {
     topology.obj_library = look.library();
     topology.obj_images = look.images();
     topology.ply_faces = ply_faces(drawn.faces);
-    topology.vtu_cells = vtu_cells(model);
+    topology.vtu_cells = vtu_cells(model, rigid_faces);
     for (std::size_t n = 0; n < topology.node_count; ++n)
         for (int k = 0; k < 3; ++k) topology.start.push_back(model.positions[n][k]);
     topology.tets.emplace(model);
@@ -207,10 +221,12 @@ std::string vtu_text(const ExportTopology& topology, const HostFrame& frame) {
     std::vector<float> displacements(topology.start.size());
     for (std::size_t k = 0; k < displacements.size(); ++k)
         displacements[k] = frame.positions[k] - topology.start[k];
-    const TetStrains::Values tets = topology.tets->find(frame.positions);
+    TetStrains::Values tets = topology.tets->find(frame.positions);
+    tets.strains.resize(9 * topology.cell_count);  // faces of rigid bodies have none
+    tets.stresses.resize(topology.cell_count);
     return head_of_vtk("UnstructuredGrid") +
            fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", topology.node_count,
-                       topology.tet_count) +
+                       topology.cell_count) +
            vtk_points(of_nodes(frame.positions), of_nodes(frame.velocities)) +
            data_array<float>("Float32", "Name=\"displacement\" NumberOfComponents=\"3\"", displacements) +
            force_array("contact_force", frame.contact_forces) +

@@ -26,8 +26,9 @@ struct ExportTopology {
     };
     std::vector<Object> objects;
     std::vector<SkinPoint> vertices;  ///< of the skins; of the boundaries of the tets where there are none
-    std::size_t face_count = 0, node_count = 0, tet_count = 0;
-    std::string obj_library;  ///< the text of kObjLibrary; empty: no materials
+    std::size_t face_count = 0, node_count = 0;
+    std::size_t cell_count = 0;  ///< tets, and faces of rigid bodies
+    std::string obj_library;     ///< the text of kObjLibrary; empty: no materials
     std::vector<ObjLook::Image> obj_images;
     std::string ply_faces;
     std::string vtu_cells;           ///< the <Cells> element, and the beginning of <CellData>
@@ -47,8 +48,8 @@ std::string ply_bytes(const ExportTopology& topology, const HostFrame& frame);
 /// @pre the topology has `vtp_polys`
 std::string vtp_text(const ExportTopology& topology, const HostFrame& frame);
 
-/// VTK's XML unstructured grid: every node and tet; by node velocity, displacement since the start and
-/// forces, by tet the object's index, strain and stress.
+/// VTK's XML unstructured grid: every node, tet, and face of a rigid body; by node velocity, displacement
+/// since the start and forces, by tet or face the object's index, strain and stress.
 std::string vtu_text(const ExportTopology& topology, const HostFrame& frame);
 
 }  // namespace gelatin

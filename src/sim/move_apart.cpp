@@ -20,6 +20,8 @@ constexpr double kStep = 0.01;
 // Of the areas on both sides: less than this of their sum says nothing.
 constexpr double kLeastArea = 0.05;
 constexpr int kRoundsADoubling = 20, kMostRounds = 140;
+// Of a rigid body's size: contact pushes it out of a plane that it is less deep in.
+constexpr double kLeastDepth = 1e-3;
 
 struct ObjectBox {
     glm::dvec3 min{1e300}, max{-1e300};
@@ -34,6 +36,27 @@ public:
           collision_(model_),
           positions_(positions.begin(), positions.end()),
           moved_(model_->objects.size(), glm::dvec3(0.0)) {}
+
+    // Moves rigid bodies out of planes: pushed out within a step they would fly away. @return whether there
+    // are any
+    bool leave_planes() {
+        bool any = false;
+        for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+            if (!model_->objects[o].is_rigid) continue;
+            glm::dvec3 displacement(0.0);
+            for (const Collider& collider : model_->colliders) {
+                if (collider.kind != 0) continue;
+                const glm::dvec3 normal(collider.center);
+                const double depth = -height_over(collider, o) - glm::dot(normal, displacement);
+                if (depth > kLeastDepth * box_of(o).size()) displacement += depth * normal;
+            }
+            if (displacement == glm::dvec3(0.0)) continue;
+            left_planes_.emplace_back(o, displacement);
+            move(o, displacement);
+            any = true;
+        }
+        return any;
+    }
 
     // Moves what overlaps a little, if it can be moved. @return false if nothing overlaps
     bool make_round(double step) {
@@ -60,15 +83,17 @@ public:
             if (displacements[o] == glm::dvec3(0.0)) continue;
             stop_at_planes(static_cast<std::uint32_t>(o), displacements[o]);
             moved_[o] += displacements[o];
-            const Range& nodes = model_->objects[o].nodes;
-            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-                positions_[n] += glm::vec4(glm::vec3(displacements[o]), 0.0f);
+            move(o, displacements[o]);
         }
         return any;
     }
 
     MovedApart take(std::string_view when) {
         MovedApart result{std::move(positions_), {}};
+        for (const auto& [object, by] : left_planes_)
+            result.lines.push_back(
+                fmt::format("object '{}' is inside a plane {}; it was moved by [{:.3g}, {:.3g}, {:.3g}] m",
+                            name(object), when, by.x, by.y, by.z));
         for (const auto& [first, second] : overlapping_) {
             std::string line =
                 fmt::format("objects '{}' and '{}' overlap {};", name(first), name(second), when);
@@ -94,23 +119,32 @@ private:
         return 1.0 / model_->objects[object].mass;
     }
 
+    void move(std::size_t object, const glm::dvec3& displacement) {
+        const Range& nodes = model_->objects[object].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            positions_[n] += glm::vec4(glm::vec3(displacement), 0.0f);
+    }
+
+    double height_over(const Collider& plane, std::uint32_t object) const {
+        const Range nodes = model_->objects[object].shape_nodes();
+        const auto own = std::span(positions_).subspan(nodes.first, nodes.count);
+        return static_cast<double>(cpu::least_height<float>(own, glm::vec3(plane.center)) - plane.center.w);
+    }
+
     // It goes no deeper into a plane than it is.
     void stop_at_planes(std::uint32_t object, glm::dvec3& displacement) const {
-        const Range& nodes = model_->objects[object].nodes;
-        const auto own = std::span(positions_).subspan(nodes.first, nodes.count);
         for (const Collider& collider : model_->colliders) {
             if (collider.kind != 0) continue;
-            const glm::vec3 normal(collider.center);
-            const auto height =
-                static_cast<double>(cpu::least_height<float>(own, normal) - collider.center.w);
-            const double approach = -glm::dot(glm::dvec3(normal), displacement);
-            displacement += std::max(0.0, approach - std::max(0.0, height)) * glm::dvec3(normal);
+            const glm::dvec3 normal(collider.center);
+            const double height = height_over(collider, object);
+            const double approach = -glm::dot(normal, displacement);
+            displacement += std::max(0.0, approach - std::max(0.0, height)) * normal;
         }
     }
 
     ObjectBox box_of(std::uint32_t object) const {
         ObjectBox box;
-        const Range& nodes = model_->objects[object].nodes;
+        const Range nodes = model_->objects[object].shape_nodes();
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             box.min = glm::min(box.min, glm::dvec3(positions_[n]));
             box.max = glm::max(box.max, glm::dvec3(positions_[n]));
@@ -156,6 +190,7 @@ private:
     cpu::Collision<double> collision_;
     std::vector<glm::vec4> positions_;
     std::vector<glm::dvec3> moved_;  // by object [m]
+    std::vector<std::pair<std::uint32_t, glm::dvec3>> left_planes_;
     std::set<std::pair<std::uint32_t, std::uint32_t>> overlapping_;
 };
 
@@ -164,7 +199,8 @@ private:
 std::optional<MovedApart> move_apart(const std::shared_ptr<const Model>& model,
                                      std::span<const glm::vec4> positions, std::string_view when) {
     Mover mover(model, positions);
-    if (!mover.make_round(kStep)) return std::nullopt;
+    const bool any_left = mover.leave_planes();
+    if (!mover.make_round(kStep) && !any_left) return std::nullopt;
     for (int round = 1; round < kMostRounds; ++round)
         if (!mover.make_round(kStep * std::exp2(round / kRoundsADoubling))) break;
     return mover.take(when);

@@ -20,7 +20,7 @@ struct MovedApart {
 
 /// Moves bodies that overlap others, or colliders, as a whole until they are apart, each along the normals of
 /// the faces that overlap, a little at a time. Lighter bodies move farther, and all go no deeper into
-/// planes. Those of which a node is held stay, and so do colliders.
+/// planes. Those of which a node is held stay, and so do colliders. Before that rigid bodies leave planes.
 /// @param positions of all nodes
 /// @param when for the lines: "at the start"
 /// @return none if nothing overlaps; where objects cannot be moved apart, or both stay, some still overlap

@@ -68,7 +68,8 @@ BackendSolver Simulation::make_solver(const Scene& of, const std::shared_ptr<con
         return timed(std::shared_ptr(
             cpu::make_solver<float>(from, settings.solver, settings.forces, of.collision, implicit)));
     // Attachments are rows of the host's steps alone, and rigid bodies move in these alone.
-    if (attachments.empty() && !from->has_rigid_bodies() && (!has_contacts(*from, of.collision) || makes_contacts_on_device()))
+    if (attachments.empty() && !from->has_rigid_bodies() &&
+        (!has_contacts(*from, of.collision) || makes_contacts_on_device()))
         return timed(std::shared_ptr(
             gpu::make_solver(from, settings.solver, settings.forces, of.collision, implicit)));
     return timed(

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gelatin/error.h"
+#include "sim/body_pose.h"
 #include "sim/simulation.h"
 
 namespace gelatin {
@@ -36,13 +37,22 @@ void check_values(const ModelObject& body, const char* what, std::span<const glm
 
 void Simulator::set_positions(std::size_t object, std::span<const glm::vec3> positions) {
     Simulation& d = impl_->simulation();
-    const Range& nodes = d.body(object).nodes;
-    check_values(d.body(object), "positions", positions);
+    const ModelObject& body = d.body(object);
+    const Range& nodes = body.nodes;
+    check_values(body, "positions", positions);
     const auto host = d.keep_host_state_of_solver();
     State state = d.solver->read_state();
+    std::vector<glm::vec4> places = state.positions;
     for (std::uint32_t n = 0; n < nodes.count; ++n) {
-        glm::vec4& place = state.positions[nodes.first + n];
+        glm::vec4& place = places[nodes.first + n];
         if (place.w > 0.0f) place = glm::vec4(positions[n], place.w);
+    }
+    if (body.is_rigid) {
+        const BodyPose before = nearest_pose(*d.model, body, state.positions),
+                       pose = nearest_pose(*d.model, body, places);
+        put_rigid(*d.model, body, pose, pose.center - before.center, state);
+    } else {
+        state.positions = std::move(places);
     }
     if (d.scene.has_contact()) d.move_bodies_apart(state.positions, "where they were set");
     d.take_state(state, d.clock.now());
@@ -50,8 +60,9 @@ void Simulator::set_positions(std::size_t object, std::span<const glm::vec3> pos
 
 void Simulator::set_velocities(std::size_t object, std::span<const glm::vec3> velocities) {
     Simulation& d = impl_->simulation();
-    const Range& nodes = d.body(object).nodes;
-    check_values(d.body(object), "velocities", velocities);
+    const ModelObject& body = d.body(object);
+    const Range& nodes = body.nodes;
+    check_values(body, "velocities", velocities);
     const auto host = d.keep_host_state_of_solver();
     State state = d.solver->read_state();
     const bool has_earlier = !state.earlier_velocities.empty();
@@ -62,6 +73,7 @@ void Simulator::set_velocities(std::size_t object, std::span<const glm::vec3> ve
         // Solvers take the change since the step before for what gravity has done.
         if (has_earlier) state.earlier_velocities[node] = state.velocities[node];
     }
+    if (body.is_rigid) move_rigidly(body, state);
     d.take_state(state, d.clock.now());
 }
 

@@ -3,6 +3,7 @@
 
 #include "gelatin/error.h"
 #include "model/scene/names.h"
+#include "sim/body_pose.h"
 #include "sim/forces.h"
 #include "sim/simulator_impl.h"
 
@@ -34,8 +35,17 @@ std::size_t Simulator::object_index(std::string_view name) const {
 
 ObjectInfo Simulator::object(std::size_t object) const {
     const ModelObject& body = impl_->body(object);
-    return {body.name, public_range(body.nodes), public_range(body.faces), public_range(body.tets),
-            body.mass, body.rest_volume};
+    return {body.name,
+            public_range(body.nodes),
+            public_range(body.faces),
+            public_range(body.tets),
+            body.mass,
+            body.rest_volume,
+            body.is_rigid};
+}
+
+glm::dquat Simulator::rotation(std::size_t object) const {
+    return nearest_pose(*impl_->model, impl_->body(object), positions()).rotation;
 }
 
 std::span<const glm::uvec3> Simulator::faces() const {

@@ -206,6 +206,21 @@ TEST_F(AnimationFileTest, UsdHasTimeSamplesOfSurfacesAndTets) {
     }
 }
 
+TEST_F(AnimationFileTest, UsdHasNoTetsOfRigidBodies) {
+    Scene scene = this->scene();
+    scene.objects[0].rigid.emplace();
+    const Simulator simulator(scene, on_cpu());
+    const fs::path file = folder_.path() / "rigid.usda";
+    const auto animation =
+        make_animation_file(file, model_of(simulator), {60.0, std::vector<glm::vec3>(3), Axis::y});
+    animation->write(simulator.read_frame());
+    animation->finish();
+    const std::string text = read_file(file);
+    EXPECT_THAT(text, testing::HasSubstr("def Mesh \"_1st_ball___red_\""));
+    EXPECT_THAT(text, testing::Not(testing::HasSubstr("def TetMesh \"_1st_ball___red__tets\"")));
+    EXPECT_THAT(text, testing::HasSubstr("def TetMesh \"ball_1_tets\""));
+}
+
 TEST_F(AnimationFileTest, OtherEndingsAreRefused) {
     EXPECT_THROW(write("balls.fbx"), InvalidInput);
 }

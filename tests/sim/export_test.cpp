@@ -122,6 +122,29 @@ TEST(Export, VtuReadsBackAsTheSameTets) {
     EXPECT_EQ(mesh.attributes, (std::vector<int>{0, 1}));  // the objects
 }
 
+// The first of two tets becomes the surface of a rigid body.
+TEST(Export, VtuHasFacesOfRigidBodies) {
+    Model model = two_tets();
+    model.objects[0].is_rigid = true;
+    model.tets.erase(model.tets.begin());
+    model.shear_moduli.erase(model.shear_moduli.begin());
+    model.objects[0].tets = {0, 0};
+    model.objects[1].tets = {0, 1};
+    const std::string vtu = vtu_text(make_export_topology(model), frame_of(0));
+    EXPECT_THAT(vtu, HasSubstr("NumberOfPoints=\"9\" NumberOfCells=\"5\""));
+    EXPECT_EQ(data_array<std::uint8_t>(vtu, "types"), (std::vector<std::uint8_t>{10, 5, 5, 5, 5}));
+    EXPECT_EQ(data_array<std::int32_t>(vtu, "object"), (std::vector<std::int32_t>{1, 0, 0, 0, 0}));
+    EXPECT_EQ(data_array<std::int64_t>(vtu, "offsets"), (std::vector<std::int64_t>{4, 7, 10, 13, 16}));
+    EXPECT_EQ(data_array<std::int64_t>(vtu, "connectivity"),
+              (std::vector<std::int64_t>{5, 6, 7, 8, 0, 3, 2, 0, 2, 4, 2, 3, 4, 0, 4, 3}));
+    EXPECT_EQ(data_array<float>(vtu, "strain").size(), 5u * 9u);
+    EXPECT_EQ(data_array<float>(vtu, "stress").size(), 5u);
+    const TemporaryFolder folder;
+    write_file(folder.path() / "frame.vtu", vtu);
+    Notes notes;
+    EXPECT_EQ(read_tets(folder.path() / "frame.vtu", notes).positions.size(), 4u) << "of the other";
+}
+
 TEST(Export, PlyHasVelocitiesAndObjects) {
     const std::string bytes = ply_bytes(make_export_topology(two_tets()), frame_of(0));
     const std::string end = "end_header\n";

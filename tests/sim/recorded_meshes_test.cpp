@@ -12,6 +12,7 @@
 #include "gelatin/error.h"
 #include "gelatin/recording.h"
 #include "mesh/shapes.h"
+#include "mesh/surface_file.h"
 #include "model/assembly/build_model.h"
 #include "model/scene/override_scene.h"
 #include "sim/recording/compression.h"
@@ -154,6 +155,27 @@ TEST_F(RecordedMeshesTest, NoFileOfTheSceneIsNeeded) {
     EXPECT_EQ(paint.color, before.skin.look.materials[0].color);
     ASSERT_NE(paint.image, nullptr);
     EXPECT_EQ(*paint.image, *before.skin.look.materials[0].image);
+}
+
+TEST_F(RecordedMeshesTest, RigidBodiesAreRecorded) {
+    Scene scene = this->scene();
+    scene.objects[1].shape = scene.objects[0].shape;
+    scene.objects[1].rigid.emplace();
+    ObjectDescription slab = scene.objects[1];
+    slab.name = "slab";
+    slab.shape = FileShape{meshes() / "slab.stl"};
+    slab.position = {-1.0, 0.3, 0.0};
+    write_surface(meshes() / "slab.stl", make_box({{0.4, 0.2, 0.3}, glm::ivec3(1)}));
+    scene.objects.push_back(slab);
+    const Run run = record(scene, 6);
+    const Model before = build_model(scene);
+    const auto recording = sent();
+    expect_whole(recording, run);
+    const Model model = build_model(recording->scene());
+    EXPECT_EQ(model.positions, before.positions);
+    EXPECT_EQ(model.skin.look.materials.size(), before.skin.look.materials.size());
+    EXPECT_TRUE(model.objects[1].is_rigid);
+    EXPECT_EQ(model.meshes->all.size(), 5u);  // of the first shape its tets, and its surface
 }
 
 // Not even TetGen is.

@@ -236,6 +236,43 @@ TEST_F(WindowHeavy, ABodyIsGrabbedPulledAndThrown) {
     }
 }
 
+TEST_F(WindowHeavy, ARigidBodyIsGrabbedAndThrownInAndNotPinned) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        std::string scene = two_cubes();
+        scene.replace(scene.find("[[object]]"), 10, "[[rigid]]");
+        open(scene, backend);
+        const auto settle = [&] { draw_until([&] { return !session().is_computing(); }); };
+        ASSERT_TRUE(session().model().objects[0].is_rigid);
+        draw_until([&] { return session().time() > 0.3; });  // it lies on the floor
+        act({"mousemove", "320", "250", "mousedown", "1"});
+        draw_until([&] { return session().hand() == viewer::Session::Hand::holding; });
+        press("p");
+        draw_until([&] { return !app().notice().empty(); });
+        EXPECT_EQ(app().notice(), "a rigid body has no pins: an attachment holds it");
+        for (int y = 240; y >= 130; y -= 10) {
+            act({"mousemove", "320", std::to_string(y)});
+            draw(1);
+        }
+        const double grabbed = session().time();
+        draw_until([&] { return session().time() > grabbed + 0.7; });
+        settle();
+        EXPECT_GT(center_of(session(), 0).y, 0.6) << "it hangs in the air";
+        EXPECT_LT(center_of(session(), 1).y, 0.4) << "the other one does not";
+        act({"mouseup", "1"});
+        draw_until([&] { return session().hand() == viewer::Session::Hand::free; });
+        press("t");
+        draw_until([&] { return session().model().objects.size() == 3; });
+        settle();
+        EXPECT_TRUE(session().model().objects[2].is_rigid);
+        const double thrown = session().time();
+        draw_until([&] { return session().time() > thrown + 1.5; });
+        settle();
+        EXPECT_LT(center_of(session(), 0).y, 0.9) << "it has fallen";
+        EXPECT_TRUE(app().problem().empty()) << app().problem();
+        close();
+    }
+}
+
 // Where in the panel is known by its look; Ctrl and a click let numbers be typed.
 TEST_F(WindowHeavy, StiffnessChangesUnderWay) {
     open(two_cubes());

@@ -39,7 +39,8 @@ std::vector<Chunk> make_chunks(const Model& model) {
 }
 
 template <class Real>
-void add_node(const Model& model, const Nodes<Real>& nodes, std::uint32_t n, ObjectMeasure& sums) {
+void add_node(const Model& model, const Nodes<Real>& nodes, std::uint32_t n, bool is_of_shape,
+              ObjectMeasure& sums) {
     const glm::dvec3 position(nodes.positions[n]);
     const glm::dvec3 velocity(nodes.velocities[n]);
     if (nodes.positions[n].w > Real(0)) {
@@ -48,6 +49,7 @@ void add_node(const Model& model, const Nodes<Real>& nodes, std::uint32_t n, Obj
         sums.kinetic_energy += 0.5 * mass * glm::dot(velocity, velocity);
         sums.potential_energy -= mass * glm::dot(glm::dvec3(model.gravity), position);
     }
+    if (!is_of_shape) return;
     bool touches = false;
     for (const Collider& collider : model.colliders) {
         const double distance = surface_distance(collider, position).distance;
@@ -61,7 +63,9 @@ template <class Real>
 ObjectMeasure sum_chunk(const Model& model, const Nodes<Real>& nodes, const Chunk& chunk) {
     const auto position = [&](std::uint32_t n) { return glm::dvec3(nodes.positions[n]); };
     ObjectMeasure sums;
-    for (std::uint32_t n = chunk.nodes.first; n < chunk.nodes.end(); ++n) add_node(model, nodes, n, sums);
+    const std::uint32_t end_of_shape = model.objects[chunk.object].shape_nodes().end();
+    for (std::uint32_t n = chunk.nodes.first; n < chunk.nodes.end(); ++n)
+        add_node(model, nodes, n, n < end_of_shape, sums);
     sums.elastic_energy =
         elastic_energy<Real>(model, {chunk.nodes, chunk.springs, chunk.tets}, nodes.positions);
     const glm::dvec3 origin = position(model.objects[chunk.object].nodes.first);

@@ -56,6 +56,9 @@ TetValues::TetValues(const Model& model, Quantity quantity)
     node_program_.bind("slice_starts", slice_starts_);
     node_program_.bind("tet_materials", materials_);
     node_program_.bind("NodeValues", node_values_);
+    if (quantity != Quantity::speed) return;
+    node_program_.bind("rest_positions", rest_positions_);
+    node_program_.bind("Histogram", histogram_);
 }
 
 void TetValues::run(const gl::BufferTexture& positions, const gl::BufferTexture& velocities) {
@@ -65,7 +68,7 @@ void TetValues::run(const gl::BufferTexture& positions, const gl::BufferTexture&
     tet_program_.set("tet_count", static_cast<std::uint32_t>(tet_values_.size()));
     tet_program_.set("least", least());
     tet_program_.dispatch(tet_values_.size());
-    gl::barrier(gl::Barrier::texture_fetch);
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
 
     node_program_.bind("velocities", velocities);
     node_program_.set("node_count", static_cast<std::uint32_t>(node_values_.size()));

@@ -52,11 +52,12 @@ struct Arranged {
     std::vector<std::size_t> old_tets;     // each tet's previous index
 };
 
-Arranged arranged(const TetMesh& mesh, const std::vector<glm::uvec2>& edges) {
+// The last ones may have to stay last.
+Arranged arranged(const TetMesh& mesh, const std::vector<glm::uvec2>& edges, std::uint32_t last) {
     const Graph graph = make_graph(mesh.positions.size(), edges);
     const auto count = static_cast<std::uint32_t>(mesh.positions.size());
-    const std::vector<std::uint32_t> order =
-        locality_order(graph, count <= kSmallObject ? count : kSortWindow);
+    std::vector<std::uint32_t> order = locality_order(graph, count <= kSmallObject ? count : kSortWindow);
+    std::stable_partition(order.begin(), order.end(), [&](std::uint32_t n) { return n < count - last; });
 
     std::vector<std::uint32_t> new_index(count);
     for (std::uint32_t n = 0; n < count; ++n) new_index[order[n]] = n;
@@ -229,7 +230,7 @@ std::shared_ptr<const FittedSprings> fitted_springs(const Body& body) {
 std::vector<std::uint32_t> append_body(Model& model, const Body& body) {
     const auto size = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
     const std::shared_ptr<const FittedSprings> fitted = fitted_springs(body);
-    Arranged order = arranged(body.mesh, joined_nodes(body, fitted.get()));
+    Arranged order = arranged(body.mesh, joined_nodes(body, fitted.get()), body.is_rigid() ? 4 : 0);
     const TetMesh& mesh = order.mesh;
 
     ModelObject object;

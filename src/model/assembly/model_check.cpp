@@ -89,8 +89,9 @@ std::optional<std::string> seems_to_be_in_millimetres(const Model& model, const 
     constexpr double kLarge = 20.0, kMillimetre = 1e-3;  // [m]
     constexpr double kEarth = 9.81, kAbout = 0.05;       // [m/s^2]
     if (std::abs(glm::length(scene.gravity()) - kEarth) > kAbout) return {};
-    glm::dvec3 low(model.positions[object.nodes.first]), high = low;
-    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+    const Range nodes = object.shape_nodes();
+    glm::dvec3 low(model.positions[nodes.first]), high = low;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
         low = glm::min(low, glm::dvec3(model.positions[n]));
         high = glm::max(high, glm::dvec3(model.positions[n]));
     }

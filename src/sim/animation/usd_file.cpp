@@ -239,7 +239,8 @@ void UsdFile::finish() {
         materials.push_back(identifier(material.name, of_materials));
     for (std::size_t o = 0; o < surface_.objects.size(); ++o) {
         append_object(o, identifier(surface_.objects[o].name, taken), materials, out);
-        if (model_.is_body(o)) append_tets(o, identifier(surface_.objects[o].name + "_tets", taken), out);
+        if (model_.objects[o].tets.count > 0)
+            append_tets(o, identifier(surface_.objects[o].name + "_tets", taken), out);
     }
     out.append(materials_text(materials) + "}\n");
     for (std::size_t m = 0; m < materials.size(); ++m)

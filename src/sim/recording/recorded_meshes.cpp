@@ -29,12 +29,15 @@ struct Place {
     std::uint32_t index;
 };
 
+// Colliders and rigid bodies are surfaces.
 Place place_of(const ShapeMesh& mesh, const Scene& scene) {
-    const bool is_body = !mesh.tets.tets.empty();
-    for (std::size_t o = 0; is_body && o < scene.objects.size(); ++o)
-        if (scene.objects[o].shape == mesh.shape && scene.objects[o].mesher == mesh.mesher)
+    const bool has_tets = !mesh.tets.tets.empty();
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        const ObjectDescription& object = scene.objects[o];
+        if (object.shape == mesh.shape && object.mesher == mesh.mesher && has_tets == !object.rigid)
             return {Of::object, static_cast<std::uint32_t>(o)};
-    for (std::size_t c = 0; !is_body && c < scene.colliders.size(); ++c)
+    }
+    for (std::size_t c = 0; !has_tets && c < scene.colliders.size(); ++c)
         if (const auto* shape = std::get_if<Shape>(&scene.colliders[c].shape); shape && *shape == mesh.shape)
             return {Of::collider, static_cast<std::uint32_t>(c)};
     return {Of::nothing, 0};
@@ -164,9 +167,11 @@ std::vector<std::shared_ptr<const Mesh>> take_meshes_in_memory(Reader& in) {
 
 void set_shape(const Place& place, const Scene& scene, ShapeMesh& mesh) {
     if (place.of == Of::object) {
-        Reader::require(place.index < scene.objects.size() && !mesh.tets.tets.empty());
-        mesh.shape = scene.objects[place.index].shape;
-        mesh.mesher = scene.objects[place.index].mesher;
+        Reader::require(place.index < scene.objects.size());
+        const ObjectDescription& object = scene.objects[place.index];
+        Reader::require(!mesh.tets.tets.empty() == !object.rigid);
+        mesh.shape = object.shape;
+        mesh.mesher = object.mesher;
     } else {
         Reader::require(place.of == Of::collider && place.index < scene.colliders.size());
         const auto* shape = std::get_if<Shape>(&scene.colliders[place.index].shape);

@@ -3,12 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
+#include <numeric>
 
 #include "gpu/support/solver_scenarios.h"
 #include "gpu/support/tet_values.h"
+#include "gpu/view/tet_values.h"
+#include "mesh/shapes.h"
+#include "model/assembly/rigid_body.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
@@ -85,6 +90,30 @@ TEST_F(TetValuesOfClosedForms, AMirrorImageIsFarFromRest) {
     const test::Deformed body =
         make_uniform({glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1)});
     expect_everywhere(body, Quantity::stress, 4.0 * 2e5 / 2.6);  // stretches 1, 1, -1
+}
+
+// They have no tets, which the range of colours would follow.
+TEST_F(TetValuesOfClosedForms, SpeedsOfRigidBodiesAreCounted) {
+    const SurfaceMesh surface = make_box({glm::dvec3(1.0), glm::ivec3(2)});
+    Body body = test::make_body(TetMesh{});
+    RigidNodes nodes = make_rigid_nodes(surface, solid_moments(surface, 1e3));
+    body.mesh = std::move(nodes.mesh);
+    body.rigid_masses = std::move(nodes.masses);
+    body.rigid_volume = 1.0;
+    const Model model = test::make_model(body);
+    const std::vector<glm::vec4> velocities(model.node_count(), glm::vec4(3.0f, 4.0f, 12.0f, 0.0f));
+    gl::TexelTable<glm::vec4> positions(model.positions, gl::TexelFormat::rgba32f),
+        speeds(velocities, gl::TexelFormat::rgba32f);
+    for (const Quantity quantity : {Quantity::speed, Quantity::stretch}) {
+        gpu::TetValues values(model, quantity);
+        values.run(positions.texels(), speeds.texels());
+        std::vector<std::uint32_t> counts(gpu::TetValues::kBins);
+        values.histogram().download(counts);
+        const bool is_counted = quantity == Quantity::speed;
+        EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), is_counted ? model.node_count() : 0u);
+        const std::size_t bin = std::bit_cast<std::uint32_t>(13.0f) >> gpu::TetValues::kBinShift;
+        EXPECT_EQ(counts[bin], is_counted ? model.node_count() : 0u);
+    }
 }
 
 }  // namespace

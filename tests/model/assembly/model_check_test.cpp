@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "mesh/shapes.h"
+#include "model/assembly/rigid_body.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -81,6 +83,27 @@ TEST(CheckModel, TellsOfMassesThatDifferTooMuch) {
         check({cube(), light}),
         ElementsAre(HasSubstr("object 'body' has 2e+06 times the mass of 'feather' (1e+03 and 0.0005 kg)")));
     EXPECT_THAT(check({light}), IsEmpty()) << "there is nothing that it may touch";
+}
+
+// They have no springs, materials of parts and stiffness.
+TEST(CheckModel, OfRigidBodiesSizesAndMassesCount) {
+    const auto rigid = [](double size, double density) {
+        const SurfaceMesh surface = make_box({glm::dvec3(size), glm::ivec3(1)});
+        RigidNodes nodes = make_rigid_nodes(surface, solid_moments(surface, density));
+        Body body;
+        body.name = "rock";
+        body.mesh = std::move(nodes.mesh);
+        body.rigid_masses = std::move(nodes.masses);
+        body.rigid_volume = size * size * size;
+        return body;
+    };
+    EXPECT_THAT(check({rigid(1.0, 1e3), cube()}, SolverKind::implicit, 1.0 / 60.0), IsEmpty());
+    EXPECT_THAT(check({rigid(0.005, 1e3), cube()}, SolverKind::implicit, 1.0 / 60.0),
+                ElementsAre(HasSubstr("times the mass of 'rock'")));
+    Scene scene;
+    scene.objects.resize(1);
+    EXPECT_THAT(check_model(pack_bodies({rigid(30.0, 1e3)}, {}, {0.0, -9.81, 0.0}), scene, 1.0 / 60.0),
+                ElementsAre(HasSubstr("object 'rock': it is 30 m large")));
 }
 
 TEST(CheckModel, TellsWhereDescentLosesInertia) {
