@@ -26,7 +26,7 @@ glm::dmat3 rotation_about(const glm::dvec3& w);
 glm::dvec3 rotation_vector(const glm::dmat3& rotation);
 
 /// Keeps rigid bodies in shape: their nodes are their state, as those of others are, and move as one. Nodes
-/// are rounded, so their pose is known better than they tell.
+/// are rounded, so poses are known better than by them.
 template <class Real>
 class RigidBodies {
 public:
