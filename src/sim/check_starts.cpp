@@ -108,7 +108,7 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
 }
 
 void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene,
-                   std::span<const glm::vec4> positions, std::string_view when) {
+                   std::span<const glm::vec4> positions, const JoinedBodies& joined, std::string_view when) {
     const std::vector<glm::dvec4> exact(positions.begin(), positions.end());
     cpu::Collision<double> collision(model);
     collision.update_boxes(exact);
@@ -116,7 +116,7 @@ void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene
     collision.find_face_collisions(exact);
     for (const cpu::ObjectPair& pair : collision.pairs()) {
         if (!model->is_body(pair.object) && !model->is_body(pair.other)) continue;
-        if (!collision.collide(pair)) continue;
+        if (are_joined(joined, pair.object, pair.other) || !collision.collide(pair)) continue;
         refuse(scene, fmt::format("needs objects that are apart {}; '{}' and '{}' overlap", when,
                                   model->objects[pair.object].name, model->objects[pair.other].name));
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gelatin/scene.h"
+#include "model/drive/attachment.h"
 #include "model/model.h"
 
 namespace gelatin {
@@ -21,7 +22,8 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
 
 /// @throws InvalidInput naming the two objects, if faces of two of them overlap @param when "at the start"
 void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene,
-                   std::span<const glm::vec4> positions, std::string_view when = "at the start");
+                   std::span<const glm::vec4> positions, const JoinedBodies& joined = {},
+                   std::string_view when = "at the start");
 /// One line for each body of which faces overlap that have no common corner. Contact keeps nodes from going
 /// through faces, and edges through edges, whatever lies where: what passes through itself stays so, and no
 /// more does.

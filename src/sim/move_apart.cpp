@@ -31,8 +31,10 @@ struct ObjectBox {
 
 class Mover {
 public:
-    Mover(std::shared_ptr<const Model> model, std::span<const glm::vec4> positions)
+    Mover(std::shared_ptr<const Model> model, std::span<const glm::vec4> positions,
+          const JoinedBodies& joined)
         : model_(std::move(model)),
+          joined_(joined),
           collision_(model_),
           positions_(positions.begin(), positions.end()),
           moved_(model_->objects.size(), glm::dvec3(0.0)) {}
@@ -69,7 +71,9 @@ public:
         for (const cpu::ObjectPair& pair : collision_.pairs()) {
             // Each pair is there twice, once for the faces of either object.
             const bool is_of_colliders = !model_->is_body(pair.object) && !model_->is_body(pair.other);
-            if (pair.object > pair.other || is_of_colliders || !collision_.collide(pair)) continue;
+            if (pair.object > pair.other || is_of_colliders || are_joined(joined_, pair.object, pair.other) ||
+                !collision_.collide(pair))
+                continue;
             any = true;
             const double first = softness(pair.object), second = softness(pair.other);
             if (first + second == 0.0) continue;
@@ -187,6 +191,7 @@ private:
     }
 
     std::shared_ptr<const Model> model_;
+    const JoinedBodies& joined_;
     cpu::Collision<double> collision_;
     std::vector<glm::vec4> positions_;
     std::vector<glm::dvec3> moved_;  // by object [m]
@@ -197,8 +202,9 @@ private:
 }  // namespace
 
 std::optional<MovedApart> move_apart(const std::shared_ptr<const Model>& model,
-                                     std::span<const glm::vec4> positions, std::string_view when) {
-    Mover mover(model, positions);
+                                     std::span<const glm::vec4> positions, const JoinedBodies& joined,
+                                     std::string_view when) {
+    Mover mover(model, positions, joined);
     const bool any_left = mover.leave_planes();
     if (!mover.make_round(kStep) && !any_left) return std::nullopt;
     for (int round = 1; round < kMostRounds; ++round)

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/drive/attachment.h"
 #include "model/model.h"
 
 namespace gelatin {
@@ -22,10 +23,11 @@ struct MovedApart {
 /// the faces that overlap, a little at a time. Lighter bodies move farther, and all go no deeper into
 /// planes. Those of which a node is held stay, and so do colliders. Before that rigid bodies leave planes.
 /// @param positions of all nodes
+/// @param joined may overlap each other
 /// @param when for the lines: "at the start"
 /// @return none if nothing overlaps; where objects cannot be moved apart, or both stay, some still overlap
 std::optional<MovedApart> move_apart(const std::shared_ptr<const Model>& model,
-                                     std::span<const glm::vec4> positions,
+                                     std::span<const glm::vec4> positions, const JoinedBodies& joined = {},
                                      std::string_view when = "at the start");
 
 }  // namespace gelatin

@@ -154,9 +154,10 @@ void Simulation::take_state(const State& state, const Moment& moment) {
 }
 
 bool Simulation::move_bodies_apart(std::vector<glm::vec4>& positions, const char* when) const {
-    std::optional<MovedApart> moved = move_apart(model, positions, when);
+    const JoinedBodies joined = joined_bodies(scene, *model);
+    std::optional<MovedApart> moved = move_apart(model, positions, joined, when);
     if (moved) {
-        require_apart(model, scene, moved->positions, when);  // both may be held
+        require_apart(model, scene, moved->positions, joined, when);  // both may be held
         for (const std::string& line : moved->lines) log_warning(line);
         positions = std::move(moved->positions);
     }

@@ -150,7 +150,9 @@ bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
 }
 
 template <class Real>
-bool FindPairs<Real>::may_meet_itself(std::uint32_t object) const {
+bool FindPairs<Real>::may_meet(std::uint32_t object, std::uint32_t other) const {
+    if (other != object)
+        return (model_->is_body(object) || model_->is_body(other)) && !are_joined(joined_, object, other);
     return finds_own_ && !model_->objects[object].is_rigid &&
            (!kept_.is_convex(object) || owns_[object].boxes.size() > 0);
 }
@@ -179,11 +181,11 @@ Real FindPairs<Real>::fastest_approach(const Paths<Real>& paths) const {
     Real fastest = 0;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         object_tree_.for_objects_near(bounding_boxes_[o], [&](std::uint32_t other) {
-            if (other != o)
+            if (other != o && may_meet(o, other))
                 fastest = std::max(fastest, glm::length(motions_[other] - motions_[o]) /
                                                 static_cast<Real>(surface_->reach(o, other)));
         });
-        if (!finds_own_) continue;
+        if (!may_meet(o, o)) continue;
         const Range& nodes = model_->objects[o].nodes;
         Real farthest = 0;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -310,8 +312,7 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool 
         const bool has_new = has_changed_[other] != 0 ||
                              (other == object && owns_[object].boxes.size() > owns_[object].listed);
         if ((others_alone && !has_new) || (is_still_[object] != 0 && is_still_[other] != 0)) return;
-        if (other == object ? may_meet_itself(object) : model_->is_body(object) || model_->is_body(other))
-            others.push_back(other);
+        if (may_meet(object, other)) others.push_back(other);
     });
     std::sort(others.begin(), others.end());
     for (const std::uint32_t other : others) {

@@ -15,6 +15,7 @@
 #include "cpu/contact/kept_distances.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"
+#include "model/drive/attachment.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
@@ -64,6 +65,8 @@ public:
     /// Finds boxes; run() has to follow. @param own whether bodies meet themselves, if they do at all
     /// @param asleep bodies, whose pairs are listed only with what moves, shape [bodies], or empty
     void begin(const Paths<Real>& paths, bool own = true, std::span<const std::uint8_t> asleep = {});
+    /// Which bodies do not meet each other.
+    void set_joined(JoinedBodies joined) { joined_ = std::move(joined); }
     /// Nodes were set from outside.
     void forget() { std::fill(is_still_.begin(), is_still_.end(), std::uint8_t(0)); }
     /// Of objects whose boxes meet, how far one goes beside the other, and of bodies that meet themselves, a
@@ -114,13 +117,14 @@ private:
     template <class Use>
     void for_meeting(const BoxColumns<Real>& columns, const std::array<std::vector<Range>, 2>& ranges,
                      const Use& use, Found& found) const;
-    bool may_meet_itself(std::uint32_t object) const;
+    bool may_meet(std::uint32_t object, std::uint32_t other) const;
     bool is_kept(const Own& own, std::uint32_t count, std::uint32_t node, std::uint32_t other) const;
     void keep_near(const Paths<Real>& paths, const Found& found, std::vector<NearPair<Real>>& kept) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     bool own_, finds_own_ = false;
+    JoinedBodies joined_;
     std::vector<std::uint32_t> object_of_;
     KeptDistances<Real> kept_;
     std::vector<Own> owns_;

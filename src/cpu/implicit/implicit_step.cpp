@@ -46,6 +46,17 @@ void ImplicitStep<Real>::restart() {
 }
 
 template <class Real>
+void ImplicitStep<Real>::set_attachments(const std::vector<Attachment>& attachments) {
+    attachments_.set(attachments);
+    JoinedBodies joined;
+    for (const Attachment& attachment : attachments)
+        if (attachment.other != kNoNode && rigid_bodies_.is_rigid(attachment.object) &&
+            rigid_bodies_.is_rigid(attachment.other))
+            joined.insert(std::minmax(attachment.object, attachment.other));
+    pairs_.set_joined(std::move(joined));
+}
+
+template <class Real>
 void ImplicitStep<Real>::forget() {
     rows_.forget();
     acting_.clear();
@@ -148,6 +159,12 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             if (!is_shortest && breaks_joints(before_guard, current)) {
                 divide();
                 continue;
+            }
+            for (const std::uint32_t o : rigid_bodies_.objects()) {  // joints may be stretched by it
+                const Range& nodes = model_->objects[o].nodes;
+                for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+                    if (current.positions[n] != before_guard[n])
+                        system_.displacements[n] = Vec3<Real>(current.positions[n] - previous.positions[n]);
             }
             gained = gain();
             if (gained > 0.0) {

@@ -72,7 +72,7 @@ public:
 
     /// What presses objects at the end of the last step.
     ContactForces contact_forces() const;
-    void set_attachments(const std::vector<Attachment>& attachments) { attachments_.set(attachments); }
+    void set_attachments(const std::vector<Attachment>& attachments);
     std::vector<AttachmentForce> attachment_forces() const { return attachments_.forces(); }
     std::size_t attachment_count() const { return attachments_.count(); }
     /// Of elements, contacts and hands on held nodes in the last step.

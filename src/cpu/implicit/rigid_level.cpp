@@ -89,8 +89,7 @@ void RigidLevel<Real>::make_rigid(std::size_t object, std::span<const Real> iner
     const Motion part = rigid_part(object, inertia, displacements);
     const Vec3<Real> s(part(0), part(1), part(2)), w(part(3), part(4), part(5));
     const Range& nodes = model_->objects[object].nodes;
-    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-        displacements[n] = s + glm::cross(w, arms_[n]);
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) displacements[n] = s + glm::cross(w, arms_[n]);
 }
 
 template <class Real>

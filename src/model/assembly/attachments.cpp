@@ -6,7 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <map>
 #include <optional>
+#include <string_view>
 #include <variant>
 
 #include "gelatin/error.h"
@@ -300,6 +302,19 @@ Attachment make_attachment(const AttachmentDescription& description, std::size_t
     Attachment made = AttachmentMaker(description, index, scene, model, positions).make();
     made.positions = std::make_shared<const std::vector<glm::vec4>>(positions.begin(), positions.end());
     return made;
+}
+
+JoinedBodies joined_bodies(const Scene& scene, const Model& model) {
+    std::map<std::string_view, std::uint32_t> rigid;  // by name
+    for (std::uint32_t o = 0; o < model.body_count(); ++o)
+        if (model.objects[o].is_rigid) rigid.emplace(model.objects[o].name, o);
+    JoinedBodies joined;
+    for (const AttachmentDescription& attachment : scene.attachments) {
+        const auto object = rigid.find(attachment.object), other = rigid.find(attachment.to);
+        if (object != rigid.end() && other != rigid.end())
+            joined.insert(std::minmax(object->second, other->second));
+    }
+    return joined;
 }
 
 std::vector<Attachment> make_attachments(const Scene& scene, const Model& model,

@@ -23,6 +23,9 @@ Attachment make_attachment(const AttachmentDescription& description, std::size_t
 /// Its own, or by its place in the scene: "attachment 1".
 std::string name_of_attachment(const AttachmentDescription& description, std::size_t index);
 
+/// By the scene's attachments.
+JoinedBodies joined_bodies(const Scene& scene, const Model& model);
+
 /// Those of the scene. @throws InvalidInput as make_attachment
 std::vector<Attachment> make_attachments(const Scene& scene, const Model& model,
                                          std::span<const glm::vec4> positions);

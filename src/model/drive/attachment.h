@@ -1,12 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/spring_packing.h"
@@ -45,5 +48,13 @@ struct AttachmentForce {
     glm::dvec3 force{0.0};  ///< on its object [N]; of a broken one, what broke it
     bool is_broken = false;
 };
+
+/// Rigid bodies that an attachment joins, broken or not, the first with the lower number. They do not meet
+/// each other: links of a chain or an arm may overlap at their joint, and nothing there yields.
+using JoinedBodies = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+inline bool are_joined(const JoinedBodies& joined, std::uint32_t a, std::uint32_t b) {
+    return !joined.empty() && joined.contains({std::min(a, b), std::max(a, b)});
+}
 
 }  // namespace gelatin
