@@ -295,6 +295,69 @@ TEST(ContactScenesHeavy, ATrainFallsOffATable) {
     EXPECT_LT(scene.fastest(), 1e-3);
 }
 
+// Objects: 21 crates by rows from below, a ball that flies towards +x, a cushion.
+TEST(ContactScenesHeavy, ABallKnocksDownAPyramidOfCrates) {
+    constexpr std::size_t kCrates = 21;
+    ContactScene scene("crates.toml");
+    scene.advance_to(1);
+    std::vector<glm::dvec3> start;
+    for (std::size_t crate = 0; crate < kCrates; ++crate) start.push_back(scene.center(crate));
+    scene.advance_to(50);  // before it is hit
+    for (std::size_t crate = 0; crate < kCrates; ++crate)
+        EXPECT_LT(glm::distance(scene.center(crate), start[crate]), 0.01) << crate;
+    scene.advance_to(300);
+    EXPECT_LT(scene.center(kCrates - 1).y, 1.0);  // the top one, from 1.66
+    std::size_t high = 0, on_cushion = 0;
+    for (std::size_t crate = 0; crate < kCrates; ++crate) {
+        const glm::dvec3 center = scene.center(crate);
+        EXPECT_GT(center.y, 0.14) << crate;
+        high += center.y > 0.9 ? 1 : 0;  // six at the start
+        on_cushion += std::abs(center.x - 1.85) < 0.8 && std::abs(center.z) < 0.7 && center.y > 0.45 ? 1 : 0;
+    }
+    EXPECT_LT(high, 3u);
+    EXPECT_GT(on_cushion, 0u);
+}
+
+// Objects: 15 links of 0.16 m from the ball to the suspension, the ball, nine columns.
+TEST(ContactScenesHeavy, ABallOnAChainKnocksDownColumns) {
+    constexpr std::size_t kLinks = 15, kBall = 15;
+    ContactScene scene("wrecker.toml");
+    for (int frame = 5; frame <= 300; frame += 5) {
+        scene.advance_to(frame);
+        for (std::size_t link = 0; link + 1 < kLinks; ++link)
+            EXPECT_LT(glm::distance(scene.center(link), scene.center(link + 1)), 0.162) << frame;
+        EXPECT_LT(glm::distance(scene.center(kBall), {0.0, 3.1, 0.0}), 2.69) << frame;
+        if (frame == 50) {  // before the ball arrives
+            EXPECT_LT(scene.center(kBall).x, 0.0);
+            for (std::size_t column = kBall + 1; column <= kBall + 9; ++column)
+                EXPECT_NEAR(scene.center(column).y, 0.6, 0.03) << column;
+        }
+    }
+    for (std::size_t column = kBall + 1; column <= kBall + 9; ++column)
+        EXPECT_LT(scene.center(column).y, 0.35) << column;
+}
+
+// Objects: a top that leans, one with a level axis on a post, a slow one.
+TEST(ContactScenesHeavy, TopsPrecessUnlessTheyAreSlow) {
+    ContactScene scene("tops.toml");
+    const glm::dvec3 joint(0.0, 0.4, -0.1);
+    scene.advance_to(1);
+    const double leaning = scene.center(0).y;
+    double turned = 0.0;
+    for (int frame = 5; frame <= 480; frame += 4) {
+        const glm::dvec3 before = scene.center(1) - joint;
+        scene.advance_to(frame);
+        const glm::dvec3 now = scene.center(1) - joint;
+        turned += std::atan2(before.z * now.x - before.x * now.z, before.x * now.x + before.z * now.z);
+        EXPECT_NEAR(now.y, 0.0, 0.01) << frame;
+        EXPECT_NEAR(scene.center(0).y, leaning, 0.01) << frame;
+        if (frame == 121) {
+            EXPECT_NEAR(turned / 2.0, 1.98, 0.03 * 1.98);  // m g l / (I w)
+        }
+    }
+    EXPECT_LT(scene.center(2).y, 0.85 * leaning);
+}
+
 // What a user does with it: a stack is hit, and a cube thrown into a ring.
 void play(Backend backend) {
     ContactScene scene("play.toml", backend);
