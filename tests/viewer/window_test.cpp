@@ -256,7 +256,7 @@ TEST_F(WindowHeavy, ARigidBodyIsGrabbedAndThrownInAndNotPinned) {
         const double grabbed = session().time();
         draw_until([&] { return session().time() > grabbed + 0.7; });
         settle();
-        EXPECT_GT(center_of(session(), 0).y, 0.6) << "it hangs in the air";
+        EXPECT_GT(center_of(session(), 0).y, 0.8) << "it hangs in the air";
         EXPECT_LT(center_of(session(), 1).y, 0.4) << "the other one does not";
         act({"mouseup", "1"});
         draw_until([&] { return session().hand() == viewer::Session::Hand::free; });
