@@ -51,9 +51,10 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
                          TimeScheme<Real>& scheme) const {
     std::vector<Pace> paces(model_->body_count(), Pace::still);
     std::vector<std::uint8_t> is_struck(model_->body_count()), touches = is_struck, resolves = is_struck,
-                                                               rigid_ties = is_struck;
+                                                               rigid_ties = is_struck, attached = is_struck;
     for (const ContactRow<Real>& row : rows) {
         const std::uint32_t island = islands.of_bodies[model_->is_body(row.other) ? row.other : row.object];
+        if (row.is_tie()) attached[island] = 1;
         if (!row.is_tie()) {
             touches[island] = 1;
         } else if (ties_rigid_body(row)) {
@@ -80,7 +81,10 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
         }
         any_goes_on = any_goes_on || goes_on;
     }
-    scheme.tie(islands.of_bodies);
+    // Momenta of a pendulum that is nothing but rigid have to go by the scheme of its nodes.
+    for (std::size_t i = 0; i < attached.size(); ++i)
+        if (rigid_ties[i] != 0 && islands.are_held[i] != 0) attached[i] = 0;
+    scheme.tie(islands.of_bodies, attached);
     for (ContactRow<Real>& row : rows) {
         const std::uint32_t body = model_->is_body(row.other) ? row.other : row.object;
         row.damping = scheme.of(body).damping / step * row.slope_of(row.gap);

@@ -34,7 +34,8 @@ void TimeScheme<Real>::forget() {
 }
 
 template <class Real>
-void TimeScheme<Real>::tie(std::span<const std::uint32_t> islands_of_bodies) {
+void TimeScheme<Real>::tie(std::span<const std::uint32_t> islands_of_bodies,
+                           std::span<const std::uint8_t> whole) {
     std::vector<std::uint8_t> any_euler(tied_.size()), differ(tied_.size());
     for (std::size_t o = 0; o < tied_.size(); ++o) {
         const Scheme &own = schemes_[o], &first = schemes_[tied_[o]];
@@ -44,7 +45,7 @@ void TimeScheme<Real>::tie(std::span<const std::uint32_t> islands_of_bodies) {
     DisjointSets sets(tied_.size());
     for (std::uint32_t o = 0; o < tied_.size(); ++o) {
         const std::uint32_t least = tied_[o];
-        schemes_[o].is_whole = differ[least] != 0;
+        schemes_[o].is_whole = whole[islands_of_bodies[o]] != 0 || differ[least] != 0;
         if (any_euler[least] == 0) sets.unite(o, least);
         sets.unite(o, islands_of_bodies[o]);
     }

@@ -55,7 +55,9 @@ public:
     /// When all schemes are set. Of a force this scheme leaves a part to later steps, of a body and of what
     /// it touched alike. So where bodies that touched each other go on by different schemes, what is left is
     /// dropped for all of them. @param islands_of_bodies of each body the least one of its island
-    void tie(std::span<const std::uint32_t> islands_of_bodies);
+    /// @param whole islands of attached bodies: of their momenta nothing is left, as what they rotate by
+    /// meanwhile would add to their angular momentum
+    void tie(std::span<const std::uint32_t> islands_of_bodies, std::span<const std::uint8_t> whole);
     /// y - x of a node [m]. @param acceleration g [m/s^2]
     Vec3<Real> target(const Nodes<Real>& previous, std::size_t node, const Vec3<Real>& acceleration) const;
     /// At the end, if it was displaced by so much [m/s].

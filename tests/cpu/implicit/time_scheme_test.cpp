@@ -143,7 +143,7 @@ TEST(TimeScheme, BodiesThatPartKeepTheirMomentum) {
         scheme.begin(nodes);
         for (std::size_t o = 0; o < 2; ++o)
             by_euler[o] ? scheme.set(o, step, 0.0) : scheme.set_second_order(o, step);
-        scheme.tie(islands);
+        scheme.tie(islands, std::array<std::uint8_t, 2>{});
         std::vector<glm::dvec3> forces(nodes.positions.size(), glm::dvec3(0.0));
         forces[second - 1].x = -push;
         forces[second].x = push;
