@@ -185,7 +185,7 @@ Real FindPairs<Real>::fastest_approach(const Paths<Real>& paths) const {
                 fastest = std::max(fastest, glm::length(motions_[other] - motions_[o]) /
                                                 static_cast<Real>(surface_->reach(o, other)));
         });
-        if (!may_meet(o, o)) continue;
+        if (!finds_own_ || model_->objects[o].is_rigid) continue;
         const Range& nodes = model_->objects[o].nodes;
         Real farthest = 0;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
