@@ -92,8 +92,8 @@ void AttachmentRows<Real>::add(std::span<const Vec4<Real>> positions, std::span<
                                std::vector<ContactRow<Real>>& rows) const {
     // Of rigid bodies: of a length that steps with them usually have, as energy comes from stiffness that
     // changes.
-    constexpr double part = tuning::kFrame / tuning::kParts[0];
-    constexpr auto of_mass = static_cast<Real>(part * part * tuning::kTied / tuning::kRigidTied);
+    constexpr double kPart = tuning::kFrame / tuning::kParts[0];
+    constexpr auto kOfMass = static_cast<Real>(kPart * kPart * tuning::kTied / tuning::kRigidTied);
     for (std::uint32_t a = 0; a < attachments_.size(); ++a) {
         const Attachment& attachment = attachments_[a];
         if (is_broken(a) || asleep[attachment.object] != 0) continue;
@@ -118,7 +118,7 @@ void AttachmentRows<Real>::add(std::span<const Vec4<Real>> positions, std::span<
                 const ModelObject& object = model_->objects[object_of_[tie.nodes[k]]];
                 const Real compliance = compliances[tie.nodes[k]];
                 yield += w * w *
-                         (object.is_rigid && compliance > Real(0) ? of_mass / static_cast<Real>(object.mass)
+                         (object.is_rigid && compliance > Real(0) ? kOfMass / static_cast<Real>(object.mass)
                                                                   : compliance);
             }
             if (!(yield > Real(0))) continue;
