@@ -252,7 +252,7 @@ void Guard<Real>::place_body(std::uint32_t object, const Paths<Real>& paths, std
     }
     const RigidInertia inertia(sums);
     const auto arm = [&](std::uint32_t n) { return glm::dvec3(paths.from[n]) - from.center; };
-    // visit(normal, how far beyond its room a node is, what is little, where its arm is)
+    // visit(normal, displacement along it, room, arm at the end) where a node is out of its half space.
     const auto for_all = [&](double part, const auto& visit) {
         const glm::dmat3 turn = rotation_about(part * w);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
