@@ -68,7 +68,6 @@ private:
     Real weight_of_edges(const ContactPair& pair, const Vec3<Real>& apart, const Vec4<Real>& weights) const {
         for (int k = 0; k < 4; ++k)
             if (!(weights[k] > Real(0))) return Real(0);
-        if (surface_.is_flat_edge[pair.first] != 0 || surface_.is_flat_edge[pair.second] != 0) return Real(0);
         Real weight = 1;
         const Real distance = glm::length(apart);
         for (std::size_t side = 0; side < 2; ++side) {

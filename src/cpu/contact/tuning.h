@@ -80,8 +80,6 @@ inline constexpr double kNearBalance = 0.1, kBalance = 1e-3;
 inline constexpr double kTurned = 0.1;
 /// Rounds of the rigid level, and halvings of a step along a direction, at most: these end by themselves.
 inline constexpr int kMostRounds = 20;
-/// In a round rigid bodies rotate by so much at most [rad].
-inline constexpr double kMostTurn = 0.5;
 /// Each round of the rigid level is solved until it lacks this part of the energy that it lacked at first, in
 /// so many iterations at most.
 inline constexpr double kRigidForcing = 1e-8;

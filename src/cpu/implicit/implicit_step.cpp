@@ -131,7 +131,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             system_.solve(islands_.of_bodies);
             solve_counts_ += system_.counts;
         }
-        if ((own_ && is_torn(is_shortest)) || (system_.counts.failures > 0 && !is_shortest)) {
+        if (own_ && is_torn(is_shortest)) {
             divide();
             continue;
         }
@@ -156,10 +156,6 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         std::vector<std::uint32_t> stopped;  // bodies
         const std::vector<Vec4<Real>> before_guard = current.positions;
         if (guard(previous, current)) {
-            if (!is_shortest && breaks_joints(before_guard, current)) {
-                divide();
-                continue;
-            }
             for (const std::uint32_t o : rigid_bodies_.objects()) {  // joints may be stretched by it
                 const Range& nodes = model_->objects[o].nodes;
                 for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -462,18 +458,6 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
     });
     return true;
-}
-
-// Whether the guard has moved rigid bodies that are attached: nothing yields there but the joint, which would
-// pull them back with all that it has been stretched by.
-template <class Real>
-bool ImplicitStep<Real>::breaks_joints(std::span<const Vec4<Real>> wanted, const Nodes<Real>& current) const {
-    return std::any_of(system_.rows.begin(), system_.rows.end(), [&](const ContactRow<Real>& row) {
-        return row.is_tie() &&
-               std::any_of(row.nodes.begin(), row.nodes.begin() + row.count, [&](std::uint32_t n) {
-                   return rigid_bodies_.is_rigid(object_of_[n]) && current.positions[n] != wanted[n];
-               });
-    });
 }
 
 // Nodes that the guard has stopped are no faster than they went: else they press on what stopped them in each

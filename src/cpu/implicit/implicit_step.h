@@ -115,7 +115,6 @@ private:
     bool shorten(StepInput<Real>& input) const;
     bool detect(const Nodes<Real>& previous, bool is_shortest, bool own = true);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
-    bool breaks_joints(std::span<const Vec4<Real>> wanted, const Nodes<Real>& current) const;
     std::vector<std::uint32_t> stop_guarded(std::span<const Vec4<Real>> wanted, Nodes<Real>& current) const;
     bool moves_bodies(const Nodes<Real>& previous) const;
     void finish(const StepInput<Real>& input, const Nodes<Real>& previous, Nodes<Real>& current);

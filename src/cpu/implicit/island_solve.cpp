@@ -229,14 +229,6 @@ std::vector<Motion> IslandSolve<Real>::gather_base() const {
 }
 
 template <class Real>
-bool IslandSolve<Real>::joins_rigid_bodies() const {
-    return std::any_of(rows_.rows.begin(), rows_.rows.end(),
-                       [](const ContactRow<Real>& row) { return row.is_tie(); }) &&
-           std::any_of(bodies_.begin(), bodies_.end(),
-                       [&](std::uint32_t o) { return system_.model_->objects[o].is_rigid; });
-}
-
-template <class Real>
 void IslandSolve<Real>::rigid_newton(double tolerance) {
     if (rigid_.count() == 0 || rows_.count() == 0) return;
     std::vector<Motion> begun(rigid_.count(), Motion::Zero());
@@ -246,7 +238,6 @@ void IslandSolve<Real>::rigid_newton(double tolerance) {
     const auto found = rigid_.run(gather_base(), begun, tolerance);
     counts_.rigid_rounds += found.rounds;
     counts_.line_searches += found.line_searches;
-    if (!found.is_balanced && joins_rigid_bodies()) ++counts_.failures;
     for_displacements(found.motions,
                       [&](std::size_t n, const Vec3<Real>& d) { system_.displacements[n] += d; });
 }

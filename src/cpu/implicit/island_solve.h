@@ -34,7 +34,6 @@ private:
     double precondition(const Update& update, bool& is_enough);
     double multiply_direction();
     int conjugate_gradients(int count, double forcing);
-    bool joins_rigid_bodies() const;
     void rigid_newton(double tolerance);
     bool newton_step(int most_iterations, double forcing, bool is_first);
     template <class Use>

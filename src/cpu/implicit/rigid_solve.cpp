@@ -316,8 +316,7 @@ typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base
         if (is_balanced(tuning::kNearBalance, step)) {
             rows_.set_limits();
             step = forces();
-            result.is_balanced = is_balanced(tolerance, step);
-            if (result.rounds > 0 && result.is_balanced) break;
+            if (result.rounds > 0 && is_balanced(tolerance, step)) break;
         }
         rows_.find_tangents();
         find_turning();
@@ -325,15 +324,12 @@ typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base
         solve(step, tuning::kRigidForcing);
         for_each_index(rows_.count(), [&](std::size_t r) { changes[r] = relative(r, step); });
         std::vector<Motion> resistance(count());
-        double turning = 0.0, most_turn = tuning::kMostTurn;
+        double turning = 0.0;
         for (std::size_t b = 0; b < count(); ++b) {
             resistance[b] = level_.matrix(bodies_[b]) * step[b];
-            if (are_rigid_[b] != 0) most_turn = std::max(most_turn, glm::length(rotation(step[b])));
             turning += glm::dot(rotation(step[b]), turning_[b] * rotation(step[b]));
         }
-        const double part =
-            std::min(rows_.line_search(changes, dot(step, base), dot(step, resistance) + turning),
-                     tuning::kMostTurn / most_turn);
+        const double part = rows_.line_search(changes, dot(step, base), dot(step, resistance) + turning);
         if (part < 1.0) ++result.line_searches;
         for (std::size_t b = 0; b < count(); ++b) {
             result.motions[b] += part * step[b];

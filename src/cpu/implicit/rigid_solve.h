@@ -51,7 +51,6 @@ public:
     struct Result {
         std::vector<Motion> motions;
         int rounds = 0, line_searches = 0;
-        bool is_balanced = false;
     };
     /// Newton's method; slips follow. @param base forces of all but rows, where it begins @param begun
     /// motions of rigid bodies that displacements have already; others do not count @param tolerance forces

@@ -15,7 +15,6 @@ SolveCounts& SolveCounts::operator+=(const SolveCounts& more) {
     iterations += more.iterations;
     rigid_rounds += more.rigid_rounds;
     line_searches += more.line_searches;
-    failures += more.failures;
     multiplied_nodes += more.multiplied_nodes;
     return *this;
 }

@@ -20,7 +20,6 @@ struct SolveCounts {
     int iterations = 0;                  ///< of conjugate gradients
     int rigid_rounds = 0;                ///< Newton's method on rigid motions
     int line_searches = 0;               ///< that shortened a step
-    int failures = 0;                    ///< of joints of rigid bodies to find their balance
     std::uint64_t multiplied_nodes = 0;  ///< of the products, each time anew
 
     SolveCounts& operator+=(const SolveCounts& more);

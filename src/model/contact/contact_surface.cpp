@@ -42,19 +42,6 @@ std::uint32_t opposite_corner(const Model& model, std::uint32_t half) {
     return corners_of(model.faces[half / 3])[(half % 3 + 2) % 3];
 }
 
-// Faces of a rigid body on both sides of an edge have the same normal.
-bool is_flat(const Model& model, const FaceEdge& edge, const glm::uvec2& beside) {
-    constexpr double kOfSize = 1e-4;
-    if (!model.objects[edge.object].is_rigid || beside.y == kNoNode) return false;
-    const auto from_edge = [&](std::uint32_t n) {
-        return glm::dvec3(model.positions[n]) - glm::dvec3(model.positions[edge.a]);
-    };
-    const glm::dvec3 along = from_edge(edge.b), first = glm::cross(along, from_edge(beside.x)),
-                     second = glm::cross(along, from_edge(beside.y));
-    return glm::dot(first, second) < 0.0 &&
-           glm::length(glm::cross(first, second)) < kOfSize * glm::length(first) * glm::length(second);
-}
-
 void add_neighbors(const Model& model, ContactSurface& surface) {
     const std::vector<HalfEdge> halves = sorted_half_edges(model);
     surface.across.resize(3 * model.faces.size());
@@ -75,7 +62,6 @@ void add_neighbors(const Model& model, ContactSurface& surface) {
              ++k, ++half)
             beside[k] = opposite_corner(model, half->index);
         surface.beside_edges.push_back(beside);
-        surface.is_flat_edge.push_back(is_flat(model, edge, beside) ? 1 : 0);
     }
 }
 

@@ -21,8 +21,6 @@ struct ContactSurface {
     std::vector<std::uint32_t> places;     ///< of each node in SurfaceParts::nodes, or kNoNode inside
     std::vector<CornerAcross> across;      ///< 3 f + k: of face f's edge from corner k to k + 1
     std::vector<glm::uvec2> beside_edges;  ///< of each edge, the opposite corners of its faces, or kNoNode
-    /// Of each edge: not 0 if it is of a rigid body and within one of its flat sides, so that it is none.
-    std::vector<std::uint8_t> is_flat_edge;
     /// A third of the trace of the second derivative of the body's energy by the node at rest, without
     /// dampers [N/m], shape [nodes]: how stiff the body is there, over all directions.
     std::vector<float> stiffness;
