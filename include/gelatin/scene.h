@@ -363,9 +363,49 @@ struct ColliderDescription {
 struct AttachedPoint {
     glm::dvec3 at;  ///< [m], at the start
 };
-/// A hinge: all points of a line segment.
+/// A hinge: all points of a line segment. Between rigid sides it has a coordinate: the angle by which the
+/// object has rotated beside the other side, about the direction from the first point to the second.
 struct AttachedLine {
     glm::dvec3 from, to;  ///< [m], at the start
+};
+/// A slider: the object does not rotate beside the other side, and moves along the direction from the first
+/// point to the second. How far it has moved is its coordinate. Both sides are rigid.
+struct AttachedRail {
+    glm::dvec3 from, to;  ///< [m], at the start
+};
+/// A universal joint: a point that is kept, and two axes that stay perpendicular. Both sides are rigid.
+struct AttachedUniversal {
+    glm::dvec3 at;        ///< [m], at the start
+    glm::dvec3 own;       ///< the axis that moves with the object, at the start; of any length
+    glm::dvec3 of_other;  ///< the one that moves with the other side; within 1 degree of perpendicular
+};
+/// A rod or a rope between two points. Their distance is its coordinate: without limits, spring and motor it
+/// stays what it is.
+struct AttachedDistance {
+    glm::dvec3 from;  ///< on the object [m], at the start
+    glm::dvec3 to;    ///< on the other side, another point
+};
+
+/// Pulls a joint to where it rests. The unit of angles is degrees, but here: N m/rad, N m s/rad.
+struct JointSpring {
+    double stiffness = 0.0;           ///< [N m/rad] or [N/m], >= 0
+    double damping = 0.0;             ///< [N m s/rad] or [N s/m], >= 0
+    std::optional<double> rest = {};  ///< [degrees] or [m]; empty: where the joint is at the start
+};
+
+/// From a time on, until the next one: what a motor does otherwise. What is empty stays as it was.
+struct MotorKeyframe {
+    double time = 0.0;                                  ///< [s], >= 0
+    std::optional<double> speed, position, force = {};  ///< as of JointMotor
+};
+
+/// Moves a joint at a speed, or to a position; at least one of them is given. It holds it there, too.
+struct JointMotor {
+    /// [degrees/s] or [m/s]. Where there is a position, it goes there no faster than that.
+    std::optional<double> speed = {};
+    std::optional<double> position = {};        ///< [degrees] or [m]
+    std::optional<double> force = {};           ///< the greatest [N m] or [N], >= 0; empty: whatever it takes
+    std::vector<MotorKeyframe> keyframes = {};  ///< in ascending order of time
 };
 
 /// Keeps points of an object where they are in another one, in a collider, or in space. Where it is glued,
@@ -376,10 +416,17 @@ struct AttachmentDescription {
     std::string to = {};    ///< another object's name, or a collider's; empty: where it is in space
     /// Which points: of a region, the object's nodes in it. None: the nodes of its surface that are near what
     /// it is attached to, by half of its median edge.
-    std::variant<std::monostate, Region, AttachedPoint, AttachedLine> where = {};
+    std::variant<std::monostate, Region, AttachedPoint, AttachedLine, AttachedRail, AttachedUniversal,
+                 AttachedDistance>
+        where = {};
     double compliance = 0.0;  ///< of the whole attachment [m/N], >= 0; 0: as stiff as the bodies
     std::optional<double> break_force = {};  ///< at which it breaks [N], > 0; empty: never
-    int line = 0;                            ///< in the scene file, for later messages
+    /// Of joints with a coordinate: AttachedLine between rigid sides, AttachedRail, AttachedDistance.
+    /// Least and greatest coordinate [degrees] or [m]: of a line from -180 to 180; the start is among them.
+    std::optional<glm::dvec2> limits = {};
+    std::optional<JointSpring> spring = {};
+    std::optional<JointMotor> motor = {};
+    int line = 0;  ///< in the scene file, for later messages
 };
 
 struct CameraDescription {

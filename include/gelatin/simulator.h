@@ -93,11 +93,19 @@ struct HoldingForce {
     double torque[3] = {};   ///< on the object, about the centre of the nodes [N m]
 };
 
+/// The coordinate of a joint when the last step has ended: an angle [rad] or a length [m].
+struct JointStatus {
+    double position = 0.0;
+    double speed = 0.0;   ///< [rad/s] or [m/s]
+    double effort = 0.0;  ///< of limits, spring and motor, or of what keeps a distance [N m] or [N]
+};
+
 /// What an attachment does when the last step has ended.
 struct AttachmentStatus {
     std::string name;        ///< AttachmentDescription::name, or "attachment 1", by its place in the scene
     double force[3] = {};    ///< on its object [N]; of a broken one, the last one
     bool is_broken = false;  ///< for good
+    std::optional<JointStatus> joint = {};  ///< of those with a coordinate
 };
 
 /// The measurements of one frame. SI units.
@@ -247,6 +255,9 @@ public:
     std::size_t attach(const AttachmentDescription& attachment);
     /// Breaks an attachment for good, until reset(). @throws InvalidInput if there is none
     void detach(std::size_t attachment);
+    /// What the motor of a joint does from now on, until reset(); not part of checkpoints.
+    /// @throws InvalidInput as validate(), and if there is no such attachment
+    void set_motor(std::size_t attachment, const JointMotor& motor);
     /// In the order of Scene::attachments; empty for recordings.
     std::vector<AttachmentStatus> attachments() const;
 

@@ -211,7 +211,7 @@ template <>
 struct Fields<AttachmentDescription> {
     static constexpr const char* kClass = "Attachment";
     static void visit(AttachmentDescription& a, auto&& field) {
-        auto& [name, object, to, where, compliance, break_force, line] = a;
+        auto& [name, object, to, where, compliance, break_force, limits, spring, motor, line] = a;
         field("name", name);
         field("object", object);
         field("to", to);

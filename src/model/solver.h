@@ -111,6 +111,8 @@ struct Step {
     std::span<const HandleMotion> motions = {};
     /// How much of each load acts, shape [Model::loads.spans]; empty: all of all.
     std::span<const float> load_factors = {};
+    /// Of attachments, in their order; empty: none acts.
+    std::span<const MotorTarget> motors = {};
 };
 
 /// A backend: owns the state, in host or device memory, and advances it. Where a function does not say so, it

@@ -79,9 +79,13 @@ Json holding_forces_json(const std::vector<HoldingForce>& forces, const RunRepor
 
 Json attachments_json(const std::vector<AttachmentStatus>& attachments) {
     Json list = Json::array();
-    for (const AttachmentStatus& attachment : attachments)
+    for (const AttachmentStatus& attachment : attachments) {
         list.push_back(
             {{"name", attachment.name}, {"force", attachment.force}, {"is_broken", attachment.is_broken}});
+        if (const auto& joint = attachment.joint)
+            list.back()["joint"] = {
+                {"position", joint->position}, {"speed", joint->speed}, {"effort", joint->effort}};
+    }
     return list;
 }
 

@@ -82,7 +82,8 @@ void Simulation::step() {
     const double size = clock.step_size();
     const std::vector<HandleMotion> motions = move_held_nodes();
     const std::vector<float> factors = load_factors(model->loads, clock.time(), size);
-    solver->advance({size, motions, factors});
+    const std::vector<MotorTarget> targets = find_motors();
+    solver->advance({size, motions, factors, targets});
     clock.count_step();
     ++revision;
     look_for_standstills();
@@ -106,6 +107,20 @@ std::vector<HandleMotion> Simulation::move_held_nodes() {
     return drags.advance(times, size);
 }
 
+// The watch does not know how much energy they may give.
+std::vector<MotorTarget> Simulation::find_motors() {
+    std::vector<MotorTarget> targets(attachments.size());
+    for (std::size_t a = 0; a < targets.size(); ++a) {
+        const auto set = motors.find(a);
+        const AttachmentDescription& description = scene.attachments[a];
+        if (set == motors.end() && !description.motor) continue;
+        targets[a] =
+            motor_at(description, set != motors.end() ? set->second : *description.motor, clock.time());
+        watch->note_hand(clock.time() + clock.step_size());
+    }
+    return targets;
+}
+
 std::vector<std::uint32_t> Simulation::find_held_up() const {
     if (!drags.may_move() || !has_contact_forces()) return {};
     std::vector<HandlePose> poses;
@@ -126,6 +141,7 @@ void Simulation::reset() {
     if (!pins.empty()) rebuild(scene, unpinned, {});
     drags.restart();
     handle_clocks.restart();
+    motors.clear();
     attachments.resize(attachments_at_start);
     scene.attachments.resize(attachments_at_start);
     for (Attachment& attachment : attachments) attachment.is_broken = false;

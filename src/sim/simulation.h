@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,6 +21,7 @@ struct Simulation final : SimulatorInternals::Impl {
     std::vector<glm::vec3> forces;        // [N], shape [nodes]; empty: none
     std::vector<Attachment> attachments;  // those of the scene, then those of programs
     std::size_t attachments_at_start = 0;
+    std::map<std::size_t, JointMotor> motors;  // that programs have set, by attachment
     Standstills standstills;
 
     /// @pre the scene is valid, and the model is what build_model makes of it
@@ -44,6 +46,8 @@ struct Simulation final : SimulatorInternals::Impl {
     bool move_bodies_apart(std::vector<glm::vec4>& positions, const char* when) const;
     /// Gives the solver the attachments.
     void set_attachments();
+    /// @throws InvalidInput if there is none of this number
+    void require_attachment(std::size_t attachment) const;
     /// Makes the solver's tables anew, and goes on where it is.
     void rebuild(const Scene& of, std::shared_ptr<const Model> from, std::vector<AddedPin> added);
 
@@ -51,6 +55,7 @@ private:
     BackendSolver make_solver(const Scene& of, const std::shared_ptr<const Model>& from) const;
     void begin();
     std::vector<HandleMotion> move_held_nodes();
+    std::vector<MotorTarget> find_motors();
     std::vector<std::uint32_t> find_held_up() const;
     void look_for_standstills();
     void look_for_broken();

@@ -17,9 +17,17 @@ std::vector<AttachmentStatus> Simulator::Impl::attachment_states() const {
         const AttachmentDescription& description = scene.attachments[a];
         AttachmentStatus state{name_of_attachment(description, a), {}, found[a].is_broken};
         for (int k = 0; k < 3; ++k) state.force[k] = found[a].force[k];
+        if (found[a].has_coordinate)
+            state.joint = JointStatus{found[a].coordinate, found[a].speed, found[a].effort};
         states.push_back(std::move(state));
     }
     return states;
+}
+
+void Simulation::require_attachment(std::size_t attachment) const {
+    if (attachment >= attachments.size())
+        throw InvalidInput(
+            fmt::format("there is no attachment {}: there are {}, from 0", attachment, attachments.size()));
 }
 
 void Simulation::set_attachments() {
@@ -58,11 +66,19 @@ std::size_t Simulator::attach(const AttachmentDescription& attachment) {
     return d.attachments.size() - 1;
 }
 
+void Simulator::set_motor(std::size_t attachment, const JointMotor& motor) {
+    Simulation& d = impl_->simulation();
+    d.require_attachment(attachment);
+    Scene next = d.scene;
+    next.attachments[attachment].motor = motor;
+    next.attachments[attachment].motor->keyframes.clear();
+    validate(next);
+    d.motors[attachment] = motor;
+}
+
 void Simulator::detach(std::size_t attachment) {
     Simulation& d = impl_->simulation();
-    if (attachment >= d.attachments.size())
-        throw InvalidInput(
-            fmt::format("there is no attachment {}: there are {}, from 0", attachment, d.attachments.size()));
+    d.require_attachment(attachment);
     const auto host = d.keep_host_state_of_solver();
     d.attachments[attachment].is_broken = true;
     d.set_attachments();

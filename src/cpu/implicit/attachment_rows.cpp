@@ -41,9 +41,21 @@ void AttachmentRows<Real>::set(const std::vector<Attachment>& attachments) {
 }
 
 template <class Real>
-std::vector<AttachmentForce> AttachmentRows<Real>::forces() const {
+std::vector<AttachmentForce> AttachmentRows<Real>::forces(const Nodes<Real>& nodes) const {
+    const std::span<const Vec4<Real>> positions = nodes.positions, velocities = nodes.velocities;
     std::vector<AttachmentForce> forces;
-    for (const State& state : forces_) forces.push_back({state.force, state.is_broken != 0});
+    for (std::size_t a = 0; a < forces_.size(); ++a) {
+        const Joint& joint = attachments_[a].joint;
+        forces.push_back({.force = forces_[a].force,
+                          .effort = forces_[a].effort,
+                          .is_broken = forces_[a].is_broken != 0,
+                          .has_coordinate = joint.has_coordinate()});
+        if (!joint.has_coordinate()) continue;
+        const Frame own = frame_of(joint.own, positions), other = frame_of(joint.other, positions);
+        forces[a].coordinate = coordinate(joint, own, other);
+        forces[a].speed = coordinate_speed(joint, own, other, frame_of(joint.own, velocities, false),
+                                           frame_of(joint.other, velocities, false));
+    }
     return forces;
 }
 

@@ -23,7 +23,8 @@ public:
     void set(const std::vector<Attachment>& attachments);
     std::size_t count() const { return attachments_.size(); }
     bool is_broken(std::size_t attachment) const { return forces_[attachment].is_broken != 0; }
-    std::vector<AttachmentForce> forces() const;
+    /// @param nodes at present
+    std::vector<AttachmentForce> forces(const Nodes<Real>& nodes) const;
     void archive(Archive& archive) { archive.array(forces_); }
 
     /// If two sides are tied together at one of these nodes, where all nodes were when that was done [m];
@@ -45,6 +46,7 @@ public:
 private:
     struct State {
         glm::dvec3 force{0.0};  // on its object [N]
+        double effort = 0.0;    // [N m] or [N]
         std::uint64_t is_broken = 0;
     };
     // That a node is tied to an object, or to a plane: these have the numbers after objects.

@@ -50,7 +50,7 @@ void ImplicitStep<Real>::set_attachments(const std::vector<Attachment>& attachme
     attachments_.set(attachments);
     JoinedBodies joined;
     for (const Attachment& attachment : attachments)
-        if (attachment.other != kNoNode && rigid_bodies_.is_rigid(attachment.object) &&
+        if (attachment.joint.kind != Joint::Kind::distance && attachment.other != kNoNode && rigid_bodies_.is_rigid(attachment.object) &&
             rigid_bodies_.is_rigid(attachment.other))
             joined.insert(std::minmax(attachment.object, attachment.other));
     pairs_.set_joined(std::move(joined));

@@ -73,7 +73,9 @@ public:
     /// What presses objects at the end of the last step.
     ContactForces contact_forces() const;
     void set_attachments(const std::vector<Attachment>& attachments);
-    std::vector<AttachmentForce> attachment_forces() const { return attachments_.forces(); }
+    std::vector<AttachmentForce> attachment_forces(const Nodes<Real>& nodes) const {
+        return attachments_.forces(nodes);
+    }
     std::size_t attachment_count() const { return attachments_.count(); }
     /// Of elements, contacts and hands on held nodes in the last step.
     /// @param forces output [N], shape [nodes]; empty before it. Those of bodies asleep stay.

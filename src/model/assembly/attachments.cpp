@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 #include <map>
 #include <optional>
 #include <string_view>
 #include <variant>
 
 #include "gelatin/error.h"
-#include "mesh/carry_surface.h"
 #include "mesh/lattice/face_tree.h"
+#include "model/assembly/carrier.h"
 #include "model/assembly/collider_surface.h"
 #include "model/collision/surface_parts.h"
 #include "model/region.h"
@@ -25,87 +25,6 @@ namespace {
 constexpr double kNear = 0.5;            // glued without a region, in median edges of the object
 constexpr double kFar = 4.0;             // from what carries a point, in median edges of that
 constexpr std::size_t kMostOnLine = 64;  // points
-
-std::vector<glm::dvec3> positions_of(const ModelObject& object, std::span<const glm::vec4> positions) {
-    const auto own = positions.subspan(object.nodes.first, object.nodes.count);
-    return {own.begin(), own.end()};
-}
-
-// What carries points of an object: the tets of a body, or four nodes of what is rigid, a body or a
-// collider's surface.
-class Carrier {
-public:
-    Carrier(const Model& model, std::uint32_t object, std::span<const glm::vec4> positions)
-        : object_(model.objects[object]), is_rigid_(object_.is_rigid || !model.is_body(object)) {
-        mesh_.positions = positions_of(object_, positions);
-        for (std::uint32_t t = object_.tets.first; t < object_.tets.end(); ++t)
-            mesh_.tets.push_back(model.tets[t] - object_.nodes.first);
-        for (std::uint32_t f = object_.faces.first; f < object_.faces.end(); ++f) {
-            const Face& face = model.faces[f];
-            mesh_.faces.push_back(glm::uvec3(face.a, face.b, face.c) - object_.nodes.first);
-        }
-        edge_ = median_edge(model, object, positions);
-        if (is_rigid_) find_frame();
-    }
-
-    const std::string& name() const { return object_.name; }
-    double edge() const { return edge_; }
-    bool is_rigid() const { return is_rigid_; }
-    SurfaceMesh hull() const { return {mesh_.positions, mesh_.faces}; }
-
-    std::vector<CarriedVertex> carry(const std::vector<glm::dvec3>& points) const {
-        std::vector<CarriedVertex> carried;
-        if (is_rigid_) {
-            for (const glm::dvec3& point : points) carried.push_back(carry_by_frame(point));
-        } else {
-            carried = carry_surface({points, {}}, mesh_).vertices;
-        }
-        for (CarriedVertex& vertex : carried) vertex.nodes += object_.nodes.first;
-        return carried;
-    }
-
-    // Whether it can: a sheet, which is flat, says nothing of what is beside it.
-    bool can_carry() const {
-        const glm::dmat3 edges = frame_edges();
-        const double size = glm::length(edges[0]);
-        return !is_rigid_ || std::abs(glm::determinant(edges)) > 1e-3 * size * size * size;
-    }
-
-private:
-    // Four nodes of the surface, as far apart as possible.
-    void find_frame() {
-        std::vector<std::uint32_t> nodes;
-        for (const glm::uvec3& face : mesh_.faces) nodes.insert(nodes.end(), {face.x, face.y, face.z});
-        const auto farthest = [&](const auto& measure) {
-            return *std::max_element(nodes.begin(), nodes.end(), [&](std::uint32_t a, std::uint32_t b) {
-                return measure(mesh_.positions[a]) < measure(mesh_.positions[b]);
-            });
-        };
-        const auto at = [&](int k) { return mesh_.positions[frame_[k]]; };
-        frame_.x = farthest([&](const glm::dvec3& p) { return glm::distance(p, mesh_.positions[nodes[0]]); });
-        frame_.y = farthest([&](const glm::dvec3& p) { return glm::distance(p, at(0)); });
-        frame_.z =
-            farthest([&](const glm::dvec3& p) { return glm::length(glm::cross(at(1) - at(0), p - at(0))); });
-        const glm::dvec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
-        frame_.w = farthest([&](const glm::dvec3& p) { return std::abs(glm::dot(normal, p - at(0))); });
-    }
-
-    glm::dmat3 frame_edges() const {
-        const auto at = [&](int k) { return mesh_.positions[frame_[k]]; };
-        return {at(1) - at(0), at(2) - at(0), at(3) - at(0)};
-    }
-
-    CarriedVertex carry_by_frame(const glm::dvec3& point) const {
-        const glm::dvec3 along = glm::inverse(frame_edges()) * (point - mesh_.positions[frame_.x]);
-        return {frame_, {1.0 - along.x - along.y - along.z, along.x, along.y, along.z}};
-    }
-
-    const ModelObject& object_;
-    bool is_rigid_;
-    TetMesh mesh_;
-    double edge_;
-    glm::uvec4 frame_{0};  // of what is rigid
-};
 
 class AttachmentMaker {
 public:
@@ -136,9 +55,19 @@ public:
             tie({point->at}, "point");
         } else if (const auto* line = std::get_if<AttachedLine>(&description_.where)) {
             tie(points_on(*line), "line");
+            if (are_rigid()) join(Joint::Kind::hinge, frame_on(line->from, line->to));
+        } else if (const auto* rail = std::get_if<AttachedRail>(&description_.where)) {
+            join(Joint::Kind::slider, frame_on(rail->from, rail->to));
+        } else if (const auto* both = std::get_if<AttachedUniversal>(&description_.where)) {
+            tie({both->at}, "universal");
+            const glm::dvec3 z = glm::normalize(both->of_other), y = glm::normalize(glm::cross(z, both->own));
+            join(Joint::Kind::universal, {both->at, {glm::cross(y, z), y, z}});
+        } else if (const auto* distance = std::get_if<AttachedDistance>(&description_.where)) {
+            keep_distance(*distance);
         } else {
             glue();
         }
+        if (made_.joint.has_coordinate()) find_drive();
         return std::move(made_);
     }
 
@@ -185,13 +114,61 @@ private:
         finish(points, std::move(ties), key);
     }
 
+    bool are_rigid() const { return own_->is_rigid() && (made_.is_in_space || other_->is_rigid()); }
+
+    // z along the line from one point to another.
+    static Frame frame_on(const glm::dvec3& from, const glm::dvec3& to) {
+        const glm::dvec3 z = glm::normalize(to - from), least = glm::abs(z);
+        const int axis = least.x <= least.y && least.x <= least.z ? 0 : least.y <= least.z ? 1 : 2;
+        glm::dvec3 x(0.0);
+        x[axis] = 1.0;
+        x = glm::normalize(x - z[axis] * z);
+        return {from, {x, glm::cross(z, x), z}};
+    }
+
+    void join(Joint::Kind kind, const Frame& frame) {
+        made_.joint.kind = kind;
+        made_.joint.own = own_->carry_frame(frame);
+        made_.joint.other =
+            made_.is_in_space ? CarriedFrame{.at = {frame.point, frame.axes[0], frame.axes[1], frame.axes[2]}}
+                              : other_->carry_frame(frame);
+        made_.joint.lever = own_->size();
+    }
+
+    void keep_distance(const AttachedDistance& distance) {
+        made_.joint.kind = Joint::Kind::distance;
+        made_.joint.own = own_->carry_point(distance.from);
+        check_near(*own_, {distance.from}, own_->carry({distance.from}), "distance");
+        if (made_.is_in_space) {
+            made_.joint.other.at[0] = distance.to;
+        } else {
+            made_.joint.other = other_->carry_point(distance.to);
+            check_near(*other_, {distance.to}, other_->carry({distance.to}), "distance");
+        }
+    }
+
+    // Limits, spring and motor, in radians.
+    void find_drive() {
+        Joint& joint = made_.joint;
+        const double unit = unit_of_coordinate(description_);
+        const auto* distance = std::get_if<AttachedDistance>(&description_.where);
+        joint.rest = distance != nullptr ? glm::distance(distance->from, distance->to) : 0.0;
+        joint.is_kept =
+            distance != nullptr && !description_.limits && !description_.spring && !description_.motor;
+        if (description_.limits) joint.limits = unit * *description_.limits;
+        if (!description_.spring) return;
+        joint.stiffness = description_.spring->stiffness;
+        joint.damping = description_.spring->damping;
+        if (description_.spring->rest) joint.rest = unit * *description_.spring->rest;
+    }
+
     // Nodes of the object.
     void glue() {
         const ModelObject& object = model_.objects[made_.object];
         const auto* region = std::get_if<Region>(&description_.where);
         std::vector<std::uint32_t> nodes;
         if (region != nullptr) {
-            nodes = find_inside(*region, positions_of(object, positions_));
+            nodes = find_inside(*region, positions_of_object(object, positions_));
             for (std::uint32_t& n : nodes) n += object.nodes.first;
             if (nodes.empty())
                 fail("region", fmt::format("holds no node of '{}' (regions are in world coordinates at the "
@@ -293,6 +270,27 @@ private:
 
 }  // namespace
 
+double unit_of_coordinate(const AttachmentDescription& description) {
+    return std::holds_alternative<AttachedLine>(description.where) ? glm::radians(1.0) : 1.0;
+}
+
+MotorTarget motor_at(const AttachmentDescription& description, const JointMotor& motor, double time) {
+    JointMotor now = motor;
+    for (const MotorKeyframe& keyframe : motor.keyframes) {
+        if (keyframe.time > time) break;
+        if (keyframe.speed) now.speed = keyframe.speed;
+        if (keyframe.position) now.position = keyframe.position;
+        if (keyframe.force) now.force = keyframe.force;
+    }
+    const double unit = unit_of_coordinate(description);
+    MotorTarget target;
+    target.acts = true;
+    target.force = now.force.value_or(Joint::kNoLimit);
+    target.speed = unit * now.speed.value_or(Joint::kNoLimit);
+    if (now.position) target.position = unit * *now.position;
+    return target;
+}
+
 std::string name_of_attachment(const AttachmentDescription& description, std::size_t index) {
     return description.name.empty() ? fmt::format("attachment {}", index + 1) : description.name;
 }
@@ -310,6 +308,7 @@ JoinedBodies joined_bodies(const Scene& scene, const Model& model) {
         if (model.objects[o].is_rigid) rigid.emplace(model.objects[o].name, o);
     JoinedBodies joined;
     for (const AttachmentDescription& attachment : scene.attachments) {
+        if (std::holds_alternative<AttachedDistance>(attachment.where)) continue;
         const auto object = rigid.find(attachment.object), other = rigid.find(attachment.to);
         if (object != rigid.end() && other != rigid.end())
             joined.insert(std::minmax(object->second, other->second));

@@ -23,7 +23,13 @@ Attachment make_attachment(const AttachmentDescription& description, std::size_t
 /// Its own, or by its place in the scene: "attachment 1".
 std::string name_of_attachment(const AttachmentDescription& description, std::size_t index);
 
-/// By the scene's attachments.
+/// Of its joint: of what its coordinate is in the scene, for 1 in the model, where angles are in radians.
+double unit_of_coordinate(const AttachmentDescription& description);
+
+/// What the motor does in a step that begins then [s].
+MotorTarget motor_at(const AttachmentDescription& description, const JointMotor& motor, double time);
+
+/// Rigid bodies that attachments join, but for those at a distance.
 JoinedBodies joined_bodies(const Scene& scene, const Model& model);
 
 /// Those of the scene. @throws InvalidInput as make_attachment

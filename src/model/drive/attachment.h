@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/drive/joint.h"
 #include "model/spring_packing.h"
 
 namespace gelatin {
@@ -38,7 +39,8 @@ struct Attachment {
     float compliance = 0.0f;        ///< [m/N]
     float break_force = std::numeric_limits<float>::infinity();  ///< [N]
     bool is_broken = false;                                      ///< from now on
-    std::vector<Tie> ties;                                       ///< at least one
+    std::vector<Tie> ties;                                       ///< none of a slider and a distance
+    Joint joint;
     /// Of all nodes when it was made [m].
     std::shared_ptr<const std::vector<glm::vec4>> positions;
 };
@@ -46,11 +48,15 @@ struct Attachment {
 /// What an attachment exerts when a step has ended.
 struct AttachmentForce {
     glm::dvec3 force{0.0};  ///< on its object [N]; of a broken one, what broke it
+    double effort = 0.0;    ///< along the coordinate of its joint [N m] or [N]
     bool is_broken = false;
+    bool has_coordinate = false;           ///< whether it is a joint with one
+    double coordinate = 0.0, speed = 0.0;  ///< and how fast it changes
 };
 
-/// Rigid bodies that an attachment joins, broken or not, the first with the lower number. They do not meet
-/// each other: links of a chain or an arm may overlap at their joint, and nothing there yields.
+/// Rigid bodies that an attachment joins, but for one at a distance, broken or not, the first with the lower
+/// number. They do not meet each other: links of a chain or an arm may overlap at their joint, and nothing
+/// there yields.
 using JoinedBodies = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 inline bool are_joined(const JoinedBodies& joined, std::uint32_t a, std::uint32_t b) {
