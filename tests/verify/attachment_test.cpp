@@ -9,15 +9,14 @@
 
 #include "gelatin/error.h"
 #include "gelatin/simulator.h"
-#include "model/model.h"
-#include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
-#include "support/overlaps.h"
+#include "verify/support/measured_run.h"
+#include "verify/support/rigid_scene.h"
 
 namespace gelatin::attachment_test {
 namespace {
 
-constexpr double kGravity = 9.81, kDensity = 1000.0;
+using namespace test;
 
 Material jelly(double youngs_modulus, double damping = 0.0) {
     Material material;
@@ -53,71 +52,6 @@ Region above(double y) {
     return HalfSpaceRegion{{0.0, -1.0, 0.0}, -y};
 }
 
-SimulatorOptions on_cpu() {
-    SimulatorOptions options;
-    options.backend = Backend::cpu;
-    return options;
-}
-
-class AttachedRun {
-public:
-    explicit AttachedRun(const Scene& scene, const SimulatorOptions& options = on_cpu())
-        : simulator_(scene, options) {}
-
-    void advance(double seconds) {
-        const double end = simulator_.time() + seconds - 1e-6;
-        while (simulator_.time() < end) simulator_.advance_frame();
-    }
-    Simulator& simulator() { return simulator_; }
-    const Model& model() const { return model_of(simulator_); }
-    double mass(std::size_t object) const { return simulator_.object(object).mass; }
-    glm::dvec3 force(std::size_t attachment) const {
-        const AttachmentStatus status = simulator_.attachments()[attachment];
-        return {status.force[0], status.force[1], status.force[2]};
-    }
-    bool is_broken(std::size_t attachment) const { return simulator_.attachments()[attachment].is_broken; }
-
-    // Of mass.
-    glm::dvec3 center(std::size_t object) const { return mean(object, simulator_.positions()); }
-    glm::dvec3 velocity(std::size_t object) const { return mean(object, simulator_.velocities()); }
-    glm::dvec3 momentum() const {
-        glm::dvec3 sum(0.0);
-        for (std::uint32_t n = 0; n < model().body_node_count(); ++n) sum += momentum_of(n);
-        return sum;
-    }
-    glm::dvec3 angular_momentum() const {  // about the origin
-        glm::dvec3 sum(0.0);
-        for (std::uint32_t n = 0; n < model().body_node_count(); ++n)
-            sum += glm::cross(glm::dvec3(simulator_.positions()[n]), momentum_of(n));
-        return sum;
-    }
-    double energy() {
-        simulator_.begin_statistics();
-        const FrameStatistics now = simulator_.take_statistics();
-        return now.kinetic_energy + now.elastic_energy + now.potential_energy;
-    }
-    std::size_t overlaps() const {
-        const auto positions = simulator_.positions();
-        return test::count_overlaps(model(),
-                                    std::vector<cpu::Vec4<float>>(positions.begin(), positions.end()),
-                                    test::Overlaps::between);
-    }
-
-private:
-    glm::dvec3 momentum_of(std::uint32_t node) const {
-        return static_cast<double>(model().masses[node]) * glm::dvec3(simulator_.velocities()[node]);
-    }
-    glm::dvec3 mean(std::size_t object, std::span<const glm::vec4> values) const {
-        const ModelObject& body = model().objects[object];
-        glm::dvec3 sum(0.0);
-        for (std::uint32_t n = body.nodes.first; n < body.nodes.end(); ++n)
-            sum += static_cast<double>(model().masses[n]) * glm::dvec3(values[n]);
-        return sum / body.mass;
-    }
-
-    Simulator simulator_;
-};
-
 // Three boxes in a row, each glued to the one above, the first to its place in space.
 Scene hanging_row(double youngs_modulus = 1e5) {
     Scene scene = scene_of(jelly(youngs_modulus, 0.2));
@@ -131,7 +65,7 @@ Scene hanging_row(double youngs_modulus = 1e5) {
 }
 
 TEST(Attachments, CarryWhatHangsOnThem) {
-    AttachedRun run(hanging_row());
+    MeasuredRun run(hanging_row());
     run.advance(8.0);
     double weight = 0.0;
     for (const std::size_t object : {2u, 1u, 0u}) {
@@ -154,7 +88,7 @@ TEST(Attachments, HalvesOfABeamBendAsTheWhole) {
             scene.objects.push_back(box("b", {0.5 * length, 0.2, 0.2}, {0.75 * length + 0.006, 0, 0}, 700));
             scene.attachments = {{.object = "b", .to = "a"}};
         }
-        AttachedRun run(scene);
+        MeasuredRun run(scene);
         run.advance(6.0);
         double lowest = 0.0;
         for (const glm::vec4& p : run.simulator().positions()) lowest = std::min(lowest, double(p.y));
@@ -180,7 +114,7 @@ TEST(Attachments, APlateSwingsOnAHinge) {
         {.object = "plate",
          .where = AttachedLine{top - glm::dvec3(0.5 * width, 0, 0), top + glm::dvec3(0.5 * width, 0, 0)}}};
     scene.simulation.frame_rate = 240.0;
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     const double start = run.center(0).z - top.z;
     std::vector<double> crossings;
     double before = start;
@@ -203,11 +137,11 @@ TEST(Attachments, YieldByTheirCompliance) {
     scene.objects = {box("cube", {0.2, 0.2, 0.2}, {0.0, 0.0, 0.0})};
     const double weight = 8.0 * kGravity, compliance = 0.1 / weight;
     scene.attachments = {{.object = "cube", .where = above(0.09), .compliance = compliance}};
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     const double stiff = [&] {
         Scene other = scene;
         other.attachments[0].compliance = 0.0;
-        AttachedRun held(other);
+        MeasuredRun held(other);
         held.advance(6.0);
         return held.center(0).y;
     }();
@@ -228,7 +162,7 @@ TEST(Attachments, BreakWhereTheyCarryTooMuch) {
         Scene scene = hanging_row();
         // Hung softly, so that the load rises slowly to twice the weight.
         scene.attachments[2].break_force = (breaks ? 0.9 : 2.5) * 8.0 * kGravity;
-        AttachedRun run(scene);
+        MeasuredRun run(scene);
         run.advance(2.0);
         EXPECT_EQ(run.is_broken(2), breaks);
         EXPECT_FALSE(run.is_broken(1));
@@ -251,7 +185,7 @@ void expect_kept(std::optional<glm::dvec3> joint, double angular) {
     scene.objects[1].velocity = {0.1, 1.0, 0.3};
     scene.attachments = {{.object = "b", .to = "a"}, {.object = "c", .to = "a"}};
     if (joint) scene.attachments[1].where = AttachedPoint{*joint};
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     const glm::dvec3 p = run.momentum(), l = run.angular_momentum();
     const double start = run.energy();
     double most = start;
@@ -286,7 +220,7 @@ TEST(Attachments, ALightBodyCarriesAThousandTimesItsMass) {
                      box("load", {0.19, 0.19, 0.19}, {0.0, -0.248, 0.0})};
     scene.objects[1].material = "lead";
     scene.attachments = {{.object = "rope", .where = above(0.149)}, {.object = "rope", .to = "load"}};
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     ASSERT_GT(run.mass(1), 990.0 * run.mass(0));
     const double apart = run.center(0).y - run.center(1).y;
     run.advance(6.0);
@@ -307,7 +241,7 @@ TEST(Attachments, FollowCollidersAndAreCut) {
     lift.keyframes = {{0.0}, {2.0, {0.5, 0.5, 0.0}, {0.0, 90.0, 0.0}}};
     scene.colliders = {lift};
     scene.attachments = {{.object = "cube", .to = "lift"}};
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     run.advance(4.0);
     EXPECT_NEAR(run.center(0).x, 0.5, 0.01);
     EXPECT_NEAR(run.center(0).y, 0.29, 0.02);
@@ -336,7 +270,7 @@ TEST(Attachments, HangOnWhatNeverMoves) {
         scene.colliders = {ceiling};
         scene.attachments = {{.object = "cube", .to = to}};
         if (std::string_view(to).empty()) scene.attachments[0].where = above(-0.01);
-        AttachedRun run(scene);
+        MeasuredRun run(scene);
         run.advance(5.0);
         const double weight = run.mass(0) * kGravity;
         EXPECT_GT(run.center(0).y, -0.13) << to;
@@ -350,7 +284,7 @@ TEST(Attachments, AreMadeWhileRunning) {
     scene.objects = {box("a", {0.2, 0.2, 0.2}, {0.0, 0.0, 0.0}),
                      box("b", {0.2, 0.2, 0.2}, {0.0, -0.206, 0.0})};
     scene.objects[0].pins = {above(0.09)};
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     EXPECT_EQ(run.simulator().attach({.name = "late", .object = "b", .to = "a"}), 0u);
     run.advance(4.0);
     EXPECT_EQ(run.simulator().attachments()[0].name, "late");
@@ -371,7 +305,7 @@ TEST(Attachments, WhatIsGluedDoesNotPress) {
     scene.simulation.gravity = glm::dvec3(0.0);
     scene.objects[1].position.y = 0.797;
     scene.objects[2].position.y = 0.594;
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     run.advance(1.0);
     EXPECT_LT(glm::length(run.force(1)), 5e-3);
     EXPECT_TRUE(run.simulator().contact_forces().empty());
@@ -382,7 +316,7 @@ TEST(Attachments, WhatIsGluedDoesNotPress) {
     floor.name = "floor";
     scene.colliders = {floor};
     scene.attachments = {{.object = "top", .to = "floor"}};
-    AttachedRun beside_plane(scene);
+    MeasuredRun beside_plane(scene);
     beside_plane.advance(1.0);
     EXPECT_LT(glm::length(beside_plane.force(0)), 0.02);
 }
@@ -398,7 +332,7 @@ TEST(Attachments, NothingCrossesWhereTheyYield) {
     floor.shape = PlaneCollider{};
     scene.colliders = {floor};
     scene.attachments = {{.object = "b", .to = "a", .compliance = 1e-3}};
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     for (int k = 0; k < 40; ++k) {
         run.advance(0.05);
         ASSERT_EQ(run.overlaps(), 0u) << k;
@@ -416,7 +350,7 @@ TEST(Attachments, PartsOfAJointPressEachOther) {
     }
     scene.attachments = {{.object = "a", .to = "b", .where = AttachedPoint{{0.17, 0.0, 0.0}}},
                          {.object = "a", .where = AttachedPoint{{-0.17, 0.0, 0.0}}}};
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     const double start = run.energy();
     const double scale = kGravity * (run.mass(0) + run.mass(1)) * 0.34;
     bool press = false;
@@ -438,7 +372,7 @@ TEST(Attachments, SleepAndWakeTogether) {
     floor.shape = PlaneCollider{};
     scene.colliders = {floor};
     scene.attachments = {{.object = "b", .to = "a"}};
-    AttachedRun run(scene);
+    MeasuredRun run(scene);
     run.advance(6.0);
     const glm::dvec3 a = run.center(0), b = run.center(1);
     run.advance(1.0);
@@ -454,7 +388,7 @@ TEST(Attachments, GoOnFromACheckpoint) {
     const auto file = std::filesystem::path(::testing::TempDir()) / "attached.gelatin";
     Scene scene = hanging_row();
     scene.attachments[2].break_force = 0.9 * 8.0 * kGravity;
-    AttachedRun run(scene), other(scene);
+    MeasuredRun run(scene), other(scene);
     run.advance(0.5);
     ASSERT_TRUE(run.is_broken(2));
     run.simulator().save_checkpoint(file);
@@ -475,7 +409,7 @@ TEST(Attachments, GoOnFromACheckpoint) {
 }
 
 // The host makes the steps.
-class AttachmentsOnGlTest : public test::GlTest {};
+class AttachmentsOnGlTest : public GlTest {};
 TEST_F(AttachmentsOnGlTest, AreThoseOfTheCpu) {
     for (const CollisionResponse response : {CollisionResponse::contact, CollisionResponse::restore}) {
         Scene scene = hanging_row();
@@ -484,7 +418,7 @@ TEST_F(AttachmentsOnGlTest, AreThoseOfTheCpu) {
         SimulatorOptions on_gl;
         on_gl.backend = Backend::gl;
         on_gl.use_current_context = true;
-        AttachedRun cpu(scene), gl(scene, on_gl);
+        MeasuredRun cpu(scene), gl(scene, on_gl);
         cpu.advance(0.5);
         gl.advance(0.5);
         for (const std::size_t object : {0u, 1u, 2u}) {

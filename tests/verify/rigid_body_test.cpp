@@ -9,149 +9,20 @@
 #include <numbers>
 
 #include "gelatin/simulator.h"
-#include "model/model.h"
-#include "sim/simulator_internals.h"
-#include "support/overlaps.h"
+#include "verify/support/measured_run.h"
+#include "verify/support/rigid_scene.h"
 
 namespace gelatin::rigid_body_test {
 namespace {
 
-constexpr double kGravity = 9.81, kDensity = 1000.0;
-
-Scene scene_of(double friction = 0.5, const glm::dvec3& gravity = {0.0, -kGravity, 0.0}) {
-    Scene scene;
-    scene.simulation.solver = SolverKind::implicit;
-    scene.simulation.gravity = gravity;
-    scene.collision.response = CollisionResponse::contact;
-    scene.materials.resize(1);
-    scene.materials[0].name = "stuff";
-    scene.materials[0].density = kDensity;
-    scene.materials[0].friction = friction;
-    scene.materials[0].restitution = 0.0;
-    return scene;
-}
-
-void add_floor(Scene& scene, double friction = 0.5) {
-    ColliderDescription floor;
-    floor.shape = PlaneCollider{};
-    floor.friction = friction;
-    floor.restitution = 0.0;
-    scene.colliders = {floor};
-}
-
-ObjectDescription rigid(const std::string& name, const Shape& shape, const glm::dvec3& position) {
-    ObjectDescription object;
-    object.name = name;
-    object.shape = shape;
-    object.material = "stuff";
-    object.position = position;
-    object.rigid.emplace();
-    return object;
-}
-
-ObjectDescription rigid_box(const std::string& name, const glm::dvec3& size, const glm::dvec3& position) {
-    return rigid(name, BoxShape{size}, position);
-}
-
-class RigidRun {
-public:
-    explicit RigidRun(const Scene& scene) : simulator_(scene, on_cpu()) {}
-
-    void advance(double seconds) {
-        const double end = simulator_.time() + seconds - 1e-6;
-        while (simulator_.time() < end) simulator_.advance_frame();
-    }
-    Simulator& simulator() { return simulator_; }
-    const Model& model() const { return model_of(simulator_); }
-    double mass(std::size_t object) const { return simulator_.object(object).mass; }
-    double weight(std::size_t object) const { return kGravity * mass(object); }
-    FrameStatistics statistics() {
-        simulator_.begin_statistics();
-        return simulator_.take_statistics();
-    }
-    double energy() {
-        const FrameStatistics now = statistics();
-        return now.kinetic_energy + now.elastic_energy + now.potential_energy;
-    }
-    glm::dvec3 attachment_force(std::size_t attachment) const {
-        const AttachmentStatus status = simulator_.attachments()[attachment];
-        return {status.force[0], status.force[1], status.force[2]};
-    }
-    // Of mass.
-    glm::dvec3 center(std::size_t object) const { return mean(object, simulator_.positions()); }
-    glm::dvec3 velocity(std::size_t object) const { return mean(object, simulator_.velocities()); }
-    double fastest(std::size_t object) const {
-        double most = 0.0;
-        for_nodes(object, [&](std::uint32_t n) {
-            most = std::max(most, static_cast<double>(glm::length(glm::vec3(simulator_.velocities()[n]))));
-        });
-        return most;
-    }
-    glm::dvec3 momentum() const {
-        glm::dvec3 sum(0.0);
-        for (std::uint32_t n = 0; n < model().body_node_count(); ++n) sum += momentum_of(n);
-        return sum;
-    }
-    glm::dvec3 angular_momentum() const {  // about the origin
-        glm::dvec3 sum(0.0);
-        for (std::uint32_t n = 0; n < model().body_node_count(); ++n)
-            sum += glm::cross(glm::dvec3(simulator_.positions()[n]), momentum_of(n));
-        return sum;
-    }
-    std::size_t overlaps() const {
-        const auto positions = simulator_.positions();
-        return test::count_overlaps(model(),
-                                    std::vector<cpu::Vec4<float>>(positions.begin(), positions.end()),
-                                    test::Overlaps::between);
-    }
-    // The largest change of a distance of two of its nodes, as a part of it.
-    double strain(std::size_t object) const {
-        double most = 0.0;
-        const std::uint32_t first = model().objects[object].nodes.first;
-        for_nodes(object, [&](std::uint32_t n) {
-            if (n == first) return;
-            const auto apart = [&](const auto& positions) {
-                return glm::distance(glm::dvec3(positions[n]), glm::dvec3(positions[first]));
-            };
-            most = std::max(most, std::abs(apart(simulator_.positions()) / apart(model().positions) - 1.0));
-        });
-        return most;
-    }
-
-private:
-    static SimulatorOptions on_cpu() {
-        SimulatorOptions options;
-        options.backend = Backend::cpu;
-        return options;
-    }
-    template <class Visit>
-    void for_nodes(std::size_t object, const Visit& visit) const {
-        const Range& nodes = model().objects[object].nodes;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) visit(n);
-    }
-    glm::dvec3 momentum_of(std::uint32_t node) const {
-        return static_cast<double>(model().masses[node]) * glm::dvec3(simulator_.velocities()[node]);
-    }
-    glm::dvec3 mean(std::size_t object, std::span<const glm::vec4> values) const {
-        glm::dvec3 sum(0.0);
-        double mass = 0.0;
-        for_nodes(object, [&](std::uint32_t n) {
-            const auto m = static_cast<double>(model().masses[n]);
-            sum += m * glm::dvec3(values[n]);
-            mass += m;
-        });
-        return sum / mass;
-    }
-
-    Simulator simulator_;
-};
+using namespace test;
 
 TEST(RigidBodies, TumbleWithoutLoss) {
-    Scene scene = scene_of(0.5, glm::dvec3(0.0));
+    Scene scene = rigid_scene(0.5, glm::dvec3(0.0));
     scene.objects = {rigid_box("box", {1.0, 0.2, 0.5}, {0.5, 1.0, 0.0})};
     scene.objects[0].velocity = {0.3, 0.0, 0.1};
     scene.objects[0].spin = {10.0, 5.0, 360.0};  // nearly about the axis about which it cannot
-    RigidRun run(scene);
+    MeasuredRun run(scene);
     const double energy = run.energy();
     const glm::dvec3 angular = run.angular_momentum();
     run.advance(10.0);
@@ -164,10 +35,10 @@ TEST(RigidBodies, TumbleWithoutLoss) {
 TEST(RigidBodies, SlideAndHoldByFriction) {
     const auto on_slope = [](double part) {  // of the slope that friction holds
         const double friction = 0.4, angle = std::atan(friction * part);
-        Scene scene = scene_of(friction, kGravity * glm::dvec3(std::sin(angle), -std::cos(angle), 0.0));
+        Scene scene = rigid_scene(friction, kGravity * glm::dvec3(std::sin(angle), -std::cos(angle), 0.0));
         add_floor(scene, friction);
         scene.objects = {rigid_box("box", {0.4, 0.2, 0.4}, {0.0, 0.1015, 0.0})};
-        RigidRun run(scene);
+        MeasuredRun run(scene);
         run.advance(1.0);
         const double before = run.velocity(0).x;
         run.advance(1.0);
@@ -178,12 +49,12 @@ TEST(RigidBodies, SlideAndHoldByFriction) {
 }
 
 TEST(RigidBodies, SwingWithTheirPeriod) {
-    Scene scene = scene_of();
+    Scene scene = rigid_scene();
     scene.objects = {rigid_box("bar", {0.1, 1.0, 0.1}, {0.0, -0.5, 0.0})};
     scene.objects[0].spin = {0.0, 0.0, 12.0};
     scene.objects[0].velocity = {glm::radians(12.0) * 0.5, 0.0, 0.0};
     scene.attachments = {{.object = "bar", .where = AttachedLine{{0.0, 0.0, -0.05}, {0.0, 0.0, 0.05}}}};
-    RigidRun run(scene);
+    MeasuredRun run(scene);
     const double inertia = (0.01 + 1.0) / 12.0 + 0.25;  // of 1 kg, about the hinge
     const double period = 2.0 * std::numbers::pi * std::sqrt(inertia / (kGravity * 0.5));
     const double energy = run.energy();
@@ -197,21 +68,21 @@ TEST(RigidBodies, SwingWithTheirPeriod) {
         ASSERT_LT(run.simulator().time(), 20.0);
     }
     EXPECT_NEAR((crossings.back() - crossings.front()) / 5.0, period, 0.01 * period);
-    const double scale = run.weight(0) * 0.5 * (1.0 - std::cos(0.1));
+    const double scale = kGravity * run.mass(0) * 0.5 * (1.0 - std::cos(0.1));
     EXPECT_LT(run.energy() - energy, 1e-3 * scale);
     EXPECT_GT(run.energy() - energy, -2e-3 * scale);
     EXPECT_NEAR(glm::length(run.center(0)), 0.5, 1e-3);
 }
 
 TEST(RigidBodies, PrecessAsTopsDo) {
-    Scene scene = scene_of();
+    Scene scene = rigid_scene();
     const double arm = 0.2, spin = 60.0;
     scene.objects = {rigid_box("disc", {0.05, 0.2, 0.2}, {arm, 1.0, 0.0})};
     const double axial = 0.04 / 6.0, rate = kGravity * arm / (axial * spin);  // of 1 kg; its axis is level
     scene.objects[0].spin = glm::degrees(glm::dvec3(spin, rate, 0.0));
     scene.objects[0].velocity = {0.0, 0.0, -rate * arm};
     scene.attachments = {{.object = "disc", .where = AttachedPoint{{0.0, 1.0, 0.0}}}};
-    RigidRun run(scene);
+    MeasuredRun run(scene);
     double turned = 0.0;
     for (int frame = 0; frame < 120; ++frame) {
         const glm::dvec3 before = run.center(0);
@@ -245,7 +116,7 @@ TEST(RigidBodies, ChainsHangAsACatenary) {
     constexpr double kLength = 10.0, kThick = 0.05;
     double parameter = 0.0;
     const std::vector<glm::dvec3> points = catenary(kLength, 6.0, kLinks, parameter);
-    Scene scene = scene_of();
+    Scene scene = rigid_scene();
     for (std::size_t k = 0; k < kLinks; ++k) {
         const glm::dvec3 along = points[k + 1] - points[k];
         ObjectDescription link =
@@ -260,13 +131,13 @@ TEST(RigidBodies, ChainsHangAsACatenary) {
     }
     scene.attachments.push_back(
         {.object = scene.objects.back().name, .where = AttachedPoint{points[kLinks]}});
-    RigidRun run(scene);
+    MeasuredRun run(scene);
     run.advance(2.0);
     const double weight = kGravity * kLinks, level = weight / kLength * parameter;
     glm::dvec3 mean(0.0);
     for (int frame = 0; frame < 60; ++frame) {
         run.advance(1.0 / 60.0);
-        mean += run.attachment_force(0) / 60.0;
+        mean += run.force(0) / 60.0;
     }
     EXPECT_NEAR(mean.x, -level, 0.01 * level);
     EXPECT_NEAR(mean.y, 0.5 * weight, 0.01 * weight);
@@ -281,7 +152,7 @@ TEST(RigidBodies, ChainsHangAsACatenary) {
 }
 
 TEST(RigidBodies, LightOnesHoldAThousandTimesTheirMass) {
-    Scene scene = scene_of();
+    Scene scene = rigid_scene();
     for (int k = 0; k < 5; ++k) {
         ObjectDescription link =
             rigid_box("link " + std::to_string(k), {0.04, 0.18, 0.04}, {0.0, -0.1 - 0.2 * k, 0.0});
@@ -296,7 +167,7 @@ TEST(RigidBodies, LightOnesHoldAThousandTimesTheirMass) {
     load.velocity = {0.5, 0.0, 0.0};
     scene.objects.push_back(load);
     scene.attachments.push_back({.object = "load", .to = "link 4", .where = AttachedPoint{{0.0, -1.0, 0.0}}});
-    RigidRun run(scene);
+    MeasuredRun run(scene);
     const double energy = run.energy();
     double most = 0.0;
     for (int frame = 0; frame < 300; ++frame) {
@@ -309,12 +180,12 @@ TEST(RigidBodies, LightOnesHoldAThousandTimesTheirMass) {
 }
 
 TEST(RigidBodies, TwentyInAStackComeToRest) {
-    Scene scene = scene_of();
+    Scene scene = rigid_scene();
     add_floor(scene);
     for (int k = 0; k < 20; ++k)
         scene.objects.push_back(
             rigid_box("box " + std::to_string(k), {0.4, 0.2, 0.4}, {0.0, 0.102 + 0.202 * k, 0.0}));
-    RigidRun run(scene);
+    MeasuredRun run(scene);
     run.advance(3.0);
     for (std::size_t o = 0; o < 20; ++o) {
         EXPECT_EQ(run.fastest(o), 0.0) << o;  // asleep
@@ -326,11 +197,11 @@ TEST(RigidBodies, TwentyInAStackComeToRest) {
     double pressed = 0.0;
     for (const ContactForce& force : forces)
         if (force.object == 0 && force.collider) pressed = force.normal[1];
-    EXPECT_NEAR(pressed, 20.0 * run.weight(0), 0.01 * 20.0 * run.weight(0));
+    EXPECT_NEAR(pressed, 20.0 * kGravity * run.mass(0), 0.01 * 20.0 * kGravity * run.mass(0));
 }
 
 TEST(RigidBodies, LieOnSoftOnes) {
-    Scene scene = scene_of();
+    Scene scene = rigid_scene();
     add_floor(scene);
     scene.materials.push_back(scene.materials[0]);
     scene.materials[1].name = "jelly";
@@ -340,19 +211,19 @@ TEST(RigidBodies, LieOnSoftOnes) {
     mattress.rigid.reset();
     mattress.material = "jelly";
     scene.objects = {mattress, rigid_box("crate", {0.4, 0.4, 0.4}, {0.0, 0.65, 0.0})};
-    RigidRun run(scene);
+    MeasuredRun run(scene);
     run.advance(4.0);
     EXPECT_LT(run.fastest(1), 0.01);
     double pressed = 0.0;
     for (const ContactForce& force : run.statistics().contact_forces)
         if (force.other == 1u) pressed = std::abs(force.normal[1]);
-    EXPECT_NEAR(pressed, run.weight(1), 0.01 * run.weight(1));
+    EXPECT_NEAR(pressed, kGravity * run.mass(1), 0.01 * kGravity * run.mass(1));
     EXPECT_LT(run.center(1).y, 0.62);
     EXPECT_EQ(run.overlaps(), 0u);
 }
 
 TEST(RigidBodies, KeepMomentaWhenTheyMeet) {
-    Scene scene = scene_of(0.5, glm::dvec3(0.0));
+    Scene scene = rigid_scene(0.5, glm::dvec3(0.0));
     scene.materials.push_back(scene.materials[0]);
     scene.materials[1].name = "jelly";
     ObjectDescription ball = rigid("ball", SphereShape{0.2, 4}, {0.0, 0.55, 0.05});
@@ -361,7 +232,7 @@ TEST(RigidBodies, KeepMomentaWhenTheyMeet) {
     ball.velocity = {0.0, -3.0, 0.0};
     scene.objects = {rigid_box("bar", {1.0, 0.1, 0.2}, {0.2, 0.0, 0.0}), ball,
                      rigid_box("other", {0.3, 0.2, 0.2}, {0.5, -0.3, 0.0})};
-    RigidRun run(scene);
+    MeasuredRun run(scene);
     const glm::dvec3 momentum = run.momentum(), angular = run.angular_momentum();
     const double energy = run.energy();
     for (int frame = 0; frame < 120; ++frame) {
@@ -378,7 +249,7 @@ TEST(RigidBodies, KeepMomentaWhenTheyMeet) {
 // that are not neighbours hit each other.
 TEST(RigidBodiesHeavy, ChainsThatFallGainNoEnergyAndDoNotStretch) {
     for (const auto& [links, load] : {std::pair(50u, 0.0), std::pair(10u, 200.0)}) {
-        Scene scene = scene_of();
+        Scene scene = rigid_scene();
         const auto add = [&](const ObjectDescription& object, double joint) {
             scene.attachments.push_back({.object = object.name,
                                          .to = scene.objects.empty() ? "" : scene.objects.back().name,
@@ -395,7 +266,7 @@ TEST(RigidBodiesHeavy, ChainsThatFallGainNoEnergyAndDoNotStretch) {
             add(weight, 0.2 * links);
             scale += kGravity * load * 0.2 * links;
         }
-        RigidRun run(scene);
+        MeasuredRun run(scene);
         const double energy = run.energy();
         for (int frame = 0; frame < 360; ++frame) {
             run.advance(1.0 / 60.0);
@@ -413,7 +284,7 @@ TEST(RigidBodiesHeavy, ChainsThatFallGainNoEnergyAndDoNotStretch) {
 
 // Of any shape, thrown at each other and at soft ones.
 TEST(RigidBodiesHeavy, NeverPassThroughAnything) {
-    Scene scene = scene_of();
+    Scene scene = rigid_scene();
     add_floor(scene);
     for (int k = 0; k < 24; ++k) {
         const glm::dvec3 at(0.6 * (k % 3) - 0.6, 0.6 + 0.6 * (k / 6), 0.6 * (k / 3 % 2) - 0.3);
@@ -428,7 +299,7 @@ TEST(RigidBodiesHeavy, NeverPassThroughAnything) {
         if (k % 3 == 2) object.rigid.reset();
         scene.objects.push_back(object);
     }
-    RigidRun run(scene);
+    MeasuredRun run(scene);
     for (int frame = 0; frame < 90; ++frame) {
         run.advance(1.0 / 60.0);
         ASSERT_EQ(run.overlaps(), 0u) << frame;

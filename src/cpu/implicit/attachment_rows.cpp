@@ -6,6 +6,7 @@
 
 #include "core/disjoint_sets.h"
 #include "cpu/contact/tuning.h"
+#include "cpu/implicit/joint_rows.h"
 
 namespace gelatin::cpu {
 
@@ -17,6 +18,7 @@ template <class Real>
 void AttachmentRows<Real>::set(const std::vector<Attachment>& attachments) {
     attachments_ = attachments;
     forces_.resize(attachments_.size());
+    axes_.resize(attachments_.size());
     for (std::size_t a = 0; a < attachments_.size(); ++a)
         forces_[a].is_broken = attachments_[a].is_broken ? 1 : 0;
     has_ties_.assign(attachments_.empty() ? 0 : model_->node_count(), 0);
@@ -97,63 +99,102 @@ std::vector<std::uint32_t> AttachmentRows<Real>::groups() const {
     return groups;
 }
 
-// A tie is like friction that never slides: it holds in all directions, from where its points should be.
 template <class Real>
-void AttachmentRows<Real>::add(std::span<const Vec4<Real>> positions, std::span<const Real> compliances,
-                               std::span<const std::uint8_t> asleep,
-                               std::vector<ContactRow<Real>>& rows) const {
+std::vector<std::uint32_t> AttachmentRows<Real>::moved_by(std::span<const MotorTarget> motors) const {
+    std::vector<std::uint32_t> moved;
+    for (std::size_t a = 0; a < motors.size(); ++a)
+        if (motors[a].acts && !is_broken(a) && motors[a].speed != 0.0)
+            moved.push_back(attachments_[a].object);
+    return moved;
+}
+
+// It is like friction that never slides: it holds in all directions, from where its points should be.
+template <class Real>
+ContactRow<Real> AttachmentRows<Real>::row_of(const Tie& tie, const ContactRow<Real>& blank,
+                                              const Start& start) const {
+    ContactRow<Real> row = blank;
+    row.count = tie.count;
+    const bool is_in_space = attachments_[row.attachment].is_in_space;
+    const Vec3<Real> origin = is_in_space ? Vec3<Real>(tie.at) : Vec3<Real>(start.positions[tie.nodes[0]]);
+    Vec3<Real> apart(0);
+    for (std::uint32_t k = 0; k < tie.count; ++k) {
+        row.nodes[k] = tie.nodes[k];
+        row.weights[k] = static_cast<Real>(tie.weights[k]);
+        apart += row.weights[k] * (Vec3<Real>(start.positions[tie.nodes[k]]) - origin);
+    }
+    row.hold = apart;  // for 1 N/m
+    return row;
+}
+
+// Of what does not yield but by its nodes. @param shared compliance of its own [m/N] @return 0: none is free
+template <class Real>
+Real AttachmentRows<Real>::stiffness_of(const ContactRow<Real>& row, std::span<const Real> compliances,
+                                        Real shared) const {
     // Of rigid bodies: of a length that steps with them usually have, as energy comes from stiffness that
     // changes.
     constexpr double kPart = tuning::kFrame / tuning::kParts[0];
     constexpr auto kOfMass = static_cast<Real>(kPart * kPart * tuning::kTied / tuning::kRigidTied);
+    Real yield = 0;
+    for (std::uint32_t k = 0; k < row.count; ++k) {
+        const Real w = row.weights[k], compliance = compliances[row.nodes[k]];
+        const ModelObject& object = model_->objects[object_of_[row.nodes[k]]];
+        yield +=
+            w * w *
+            (object.is_rigid && compliance > Real(0) ? kOfMass / static_cast<Real>(object.mass) : compliance);
+    }
+    return yield > Real(0) ? Real(1) / (yield / static_cast<Real>(tuning::kTied) + shared) : Real(0);
+}
+
+template <class Real>
+void AttachmentRows<Real>::add(const Start& start, std::vector<ContactRow<Real>>& rows) {
     for (std::uint32_t a = 0; a < attachments_.size(); ++a) {
         const Attachment& attachment = attachments_[a];
-        if (is_broken(a) || asleep[attachment.object] != 0) continue;
-        const Real shared =
-            static_cast<Real>(attachment.compliance) * static_cast<Real>(attachment.ties.size());
+        if (is_broken(a) || start.asleep[attachment.object] != 0) continue;
+        ContactRow<Real> blank;
+        blank.attachment = a;
+        blank.object = attachment.other;
+        blank.other = attachment.object;
+        blank.gap = blank.limit = std::numeric_limits<Real>::max();
+        const auto compliance = static_cast<Real>(attachment.compliance);
         for (const Tie& tie : attachment.ties) {
-            ContactRow<Real> row;
-            row.attachment = a;
-            row.count = tie.count;
-            row.object = attachment.other;
-            row.other = attachment.object;
-            row.gap = row.limit = std::numeric_limits<Real>::max();
-            const Vec3<Real> origin =
-                attachment.is_in_space ? Vec3<Real>(tie.at) : Vec3<Real>(positions[tie.nodes[0]]);
-            Vec3<Real> apart(0);
-            Real yield = 0;
-            for (std::uint32_t k = 0; k < tie.count; ++k) {
-                const auto w = static_cast<Real>(tie.weights[k]);
-                row.nodes[k] = tie.nodes[k];
-                row.weights[k] = w;
-                apart += w * (Vec3<Real>(positions[tie.nodes[k]]) - origin);
-                const ModelObject& object = model_->objects[object_of_[tie.nodes[k]]];
-                const Real compliance = compliances[tie.nodes[k]];
-                yield += w * w *
-                         (object.is_rigid && compliance > Real(0) ? kOfMass / static_cast<Real>(object.mass)
-                                                                  : compliance);
-            }
-            if (!(yield > Real(0))) continue;
-            row.stiffness = Real(1) / (yield / static_cast<Real>(tuning::kTied) + shared);
-            row.hold = row.stiffness * apart;
+            ContactRow<Real> row = row_of(tie, blank, start);
+            row.stiffness =
+                stiffness_of(row, start.compliances, compliance * static_cast<Real>(attachment.ties.size()));
+            if (!(row.stiffness > Real(0))) continue;
+            row.hold *= row.stiffness;
             rows.push_back(row);
         }
+        if (attachment.joint.kind == Joint::Kind::none) continue;
+        const JointRows<Real> joint(attachment, start.positions, start.expected);
+        axes_[a] = static_cast<Real>(joint.scale()) * joint.axis();
+        joint.add(
+            start.motors.empty() ? MotorTarget() : start.motors[a], static_cast<Real>(forces_[a].motor_held),
+            static_cast<double>(start.step), blank,
+            [&](const ContactRow<Real>& row) { return stiffness_of(row, start.compliances, compliance); },
+            rows);
     }
 }
 
 template <class Real>
-void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows,
-                                std::span<const Vec3<Real>> displacements,
+void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> slips,
                                 std::span<const std::uint8_t> asleep) {
     for (std::size_t a = 0; a < attachments_.size(); ++a)
-        if (!is_broken(a) && asleep[attachments_[a].object] == 0) forces_[a].force = glm::dvec3(0.0);
-    for (const ContactRow<Real>& row : rows)
-        if (row.is_tie())
-            forces_[row.attachment].force += glm::dvec3(row.force(slip<Real>(row, displacements)));
+        if (!is_broken(a) && asleep[attachments_[a].object] == 0)
+            forces_[a] = {.is_broken = forces_[a].is_broken, .motor_held = forces_[a].motor_held};
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        const ContactRow<Real>& row = rows[r];
+        if (!row.is_tie()) continue;
+        const Vec3<Real> force = row.force(slips[r]);
+        if (!row.is_couple) forces_[row.attachment].force += glm::dvec3(force);
+        if (row.is_along)
+            forces_[row.attachment].effort += static_cast<double>(glm::dot(force, axes_[row.attachment]));
+        if (row.is_motor) forces_[row.attachment].motor = -static_cast<double>(glm::dot(force, row.normal));
+    }
 }
 
 template <class Real>
-void AttachmentRows<Real>::break_overloaded() {
+void AttachmentRows<Real>::end_step() {
+    for (State& state : forces_) state.motor_held = state.motor;
     for (std::size_t a = 0; a < attachments_.size(); ++a)
         if (glm::length(forces_[a].force) > static_cast<double>(attachments_[a].break_force))
             forces_[a].is_broken = 1;

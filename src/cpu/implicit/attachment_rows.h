@@ -33,21 +33,33 @@ public:
     bool is_tied_to_plane(std::uint32_t node, std::uint32_t plane) const;
     /// Of each body the least one that it is attached to, by others or not.
     std::vector<std::uint32_t> groups() const;
+    /// Objects of attachments that motors move, or hold against something: they do not rest. Motors at a
+    /// speed of 0 do not move them.
+    std::vector<std::uint32_t> moved_by(std::span<const MotorTarget> motors) const;
+    /// When a step begins.
+    struct Start {
+        std::span<const Vec4<Real>> positions;     ///< [m]
+        std::span<const Vec3<Real>> expected;      ///< displacements in the step without forces [m]
+        std::span<const Real> compliances;         ///< as in ContactRows::Start
+        std::span<const std::uint8_t> asleep;      ///< bodies
+        std::span<const MotorTarget> motors = {};  ///< by attachment, or empty
+        Real step;                                 ///< its length [s]
+    };
     /// Adds those that are not broken, but for bodies asleep.
-    /// @param positions when a step begins [m] @param compliances as in ContactRows::Start
-    void add(std::span<const Vec4<Real>> positions, std::span<const Real> compliances,
-             std::span<const std::uint8_t> asleep, std::vector<ContactRow<Real>>& rows) const;
-    /// What they exert at the end of a step. @param displacements of nodes [m]
-    void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> displacements,
+    void add(const Start& start, std::vector<ContactRow<Real>>& rows);
+    /// What they exert at the end of a step. @param slips of rows, s [m]
+    void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> slips,
               std::span<const std::uint8_t> asleep);
-    /// Breaks those that exert more than they can.
-    void break_overloaded();
+    /// The step was made: breaks those that exert more than they can.
+    void end_step();
 
 private:
     struct State {
         glm::dvec3 force{0.0};  // on its object [N]
         double effort = 0.0;    // [N m] or [N]
         std::uint64_t is_broken = 0;
+        double motor = 0.0;       // what its row holds along its axis [N]
+        double motor_held = 0.0;  // the same when the last step ended
     };
     // That a node is tied to an object, or to a plane: these have the numbers after objects.
     struct Tied {
@@ -55,11 +67,14 @@ private:
     };
 
     const Attachment* find_tie(std::uint32_t node, std::uint32_t to) const;
+    ContactRow<Real> row_of(const Tie& tie, const ContactRow<Real>& blank, const Start& start) const;
+    Real stiffness_of(const ContactRow<Real>& row, std::span<const Real> compliances, Real shared) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> object_of_;
     std::vector<Attachment> attachments_;
     std::vector<State> forces_;
+    std::vector<Vec3<Real>> axes_;        // of joints in this step: of a force, what its effort is
     std::vector<std::uint8_t> has_ties_;  // nodes
     std::vector<Tied> tied_;              // by node
 };

@@ -39,8 +39,14 @@ struct ContactRow {
     std::uint64_t key = 0;  ///< of the same contact in the next step
     /// What s is beside the sum, as rigid bodies rotate: by how much they leave linear displacements [m].
     Vec3<Real> turned{0};
-    /// Of which this is a tie, and no contact: it never presses, and what holds it has no limit.
+    /// Of which this is a tie, and no contact: it never presses, and what holds it goes by its own limits.
     std::uint32_t attachment = kNoNode;
+    /// Of ties: it holds along n, and not across it, with `least` at least, along n on the first side.
+    bool is_along = false;
+    Real least = 0;          ///< [N]
+    bool is_couple = false;  ///< weights of each side sum to 0: what holds exerts a moment alone
+    bool drives = false;     ///< what holds does work, or takes energy, and keeps none
+    bool is_motor = false;   ///< of these
 
     bool is_tie() const { return attachment != kNoNode; }
 
@@ -67,7 +73,7 @@ struct ContactRow {
                      beyond * (contact_force(least, reach, stiffness) +
                                Real(0.5) * beyond * contact_hessian(least, reach, stiffness));
         }
-        if (!(limit > Real(0))) return energy;
+        if (!(limit > Real(0)) || drives) return energy;
         const Vec3<Real> q = held(s);
         return energy + glm::dot(q, q) / (Real(2) * stiffness);
     }
@@ -76,13 +82,19 @@ struct ContactRow {
         const Real moved = glm::dot(normal, s);
         return std::max(force_of(gap + moved) - damping * moved, Real(0));
     }
-    /// What friction would hold with if nothing slid [N].
-    Vec3<Real> stick(const Vec3<Real>& s) const {
-        return hold + stiffness * (s - glm::dot(normal, s) * normal);
+    /// Of s what friction, or a tie, holds. Of ties nothing else is kept: along a rail s may be large, and
+    /// what is held is lost in its rounding.
+    template <class Vector>
+    Vector held_part(const Vector& s) const {
+        const Vector n(normal), along = glm::dot(n, s) * n;
+        return is_along ? along : s - along;
     }
+    /// What friction would hold with if nothing slid [N].
+    Vec3<Real> stick(const Vec3<Real>& s) const { return hold + stiffness * held_part(s); }
     /// Coulomb: the same, but no more than the limit.
     Vec3<Real> held(const Vec3<Real>& s) const {
         const Vec3<Real> q = stick(s);
+        if (is_along) return std::clamp(glm::dot(normal, q), least, limit) * normal;
         const Real length = glm::length(q);
         return length > limit ? limit / length * q : q;
     }
@@ -105,7 +117,8 @@ Vec3<Real> relative(const ContactRow<Real>& row, const Displacements& displaceme
 /// s, where nodes are displaced by d.
 template <class Real, class Displacements>
 Vec3<Real> slip(const ContactRow<Real>& row, const Displacements& displacements) {
-    return row.turned + relative(row, displacements);
+    const Vec3<Real> s = row.turned + relative(row, displacements);
+    return row.is_tie() ? row.held_part(s) : s;
 }
 
 /// A row's force to first order: constant - stiffness s.
@@ -123,7 +136,10 @@ RowTangent<Real> tangent(const ContactRow<Real>& row, const Vec3<Real>& s) {
     RowTangent<Real> t;
     if (row.pressing(s) > Real(0))
         t.stiffness.add_outer(row.slope_of(row.gap_at(s)) + row.damping, row.normal);
-    if (row.limit > Real(0)) {
+    if (row.is_along) {
+        const Real q = glm::dot(row.normal, row.stick(s));
+        if (q > row.least && q < row.limit) t.stiffness.add_outer(row.stiffness, row.normal);
+    } else if (row.limit > Real(0)) {
         const Vec3<Real> q = row.stick(s);
         const Real length = glm::length(q);
         const bool slides = length > row.limit;

@@ -92,8 +92,14 @@ void EnergyAccount<Real>::find_contacts(const Step& step) {
     for (std::size_t o = 0; o < contacts_at_end_.size(); ++o)
         if (step.asleep[o] == 0) contacts_at_end_[o] = 0.0;
     for (const ContactRow<Real>& row : step.rows) {
+        const Vec3<Real> s = slip<Real>(row, step.displacements);
         const auto start = static_cast<double>(row.energy(Vec3<Real>(0))),
-                   end = static_cast<double>(row.energy(slip<Real>(row, step.displacements)));
+                   end = static_cast<double>(row.energy(s));
+        // What carries a load is stiff: as places are rounded, so is what it holds.
+        const glm::dvec3 place(step.current.positions[row.nodes[0]]);
+        const double rounding = row.is_tie() ? tuning::kEnergyRounding * glm::length(place) *
+                                                   static_cast<double>(glm::length(row.force(s)))
+                                             : 0.0;
         const bool is_first = row.object != kNoNode && model_->is_body(row.object),
                    is_second = model_->is_body(row.other);
         const double share = is_first && is_second ? 0.5 : 1.0;
@@ -102,11 +108,12 @@ void EnergyAccount<Real>::find_contacts(const Step& step) {
             if (!counts) continue;
             contacts_at_start_[body] += share * start;
             contacts_at_end_[body] += share * end;
+            rounding_[body] += rounding;
         }
     }
 }
 
-// By held nodes and belts on what a contact presses [J].
+// By held nodes and belts on what a contact presses, and by motors and dampers [J].
 template <class Real>
 double EnergyAccount<Real>::work_on_rows(const Step& step, const ContactRow<Real>& row) const {
     Vec3<Real> moved(0);  // as much as s by what is held
@@ -119,8 +126,13 @@ double EnergyAccount<Real>::work_on_rows(const Step& step, const ContactRow<Real
     };
     if (row.object != kNoNode && !model_->is_body(row.object)) moved -= belt(row.object);
     if (!model_->is_body(row.other)) moved += belt(row.other);
-    if (moved == Vec3<Real>(0)) return 0.0;
-    return -static_cast<double>(glm::dot(row.force(slip<Real>(row, step.displacements)), moved));
+    if (moved == Vec3<Real>(0) && !row.drives) return 0.0;
+    const Vec3<Real> s = slip<Real>(row, step.displacements), force = row.force(s);
+    double work = -static_cast<double>(glm::dot(force, moved));
+    if (row.drives)
+        work += static_cast<double>(
+            std::max({glm::dot(row.force(Vec3<Real>(0)), s), glm::dot(force, s), Real(0)}));
+    return work;
 }
 
 template <class Real>

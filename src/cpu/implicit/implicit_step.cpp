@@ -50,8 +50,8 @@ void ImplicitStep<Real>::set_attachments(const std::vector<Attachment>& attachme
     attachments_.set(attachments);
     JoinedBodies joined;
     for (const Attachment& attachment : attachments)
-        if (attachment.joint.kind != Joint::Kind::distance && attachment.other != kNoNode && rigid_bodies_.is_rigid(attachment.object) &&
-            rigid_bodies_.is_rigid(attachment.other))
+        if (attachment.joint.kind != Joint::Kind::distance && attachment.other != kNoNode &&
+            rigid_bodies_.is_rigid(attachment.object) && rigid_bodies_.is_rigid(attachment.other))
             joined.insert(std::minmax(attachment.object, attachment.other));
     pairs_.set_joined(std::move(joined));
 }
@@ -108,7 +108,8 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             if (is_found) {
                 rows_.make({previous.positions, expected_, compliances_, slacks_, step_, scheme_.last_step()},
                            pairs_.pairs(), attachments_, system_.rows);
-                attachments_.add(previous.positions, compliances_, asleep_, system_.rows);
+                attachments_.add({previous.positions, expected_, compliances_, asleep_, input.motors, step_},
+                                 system_.rows);
             }
             if (wake_near(input, previous)) continue;
             parts_ = paces_.count_parts(system_.rows);
@@ -178,7 +179,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         }
         energy_.settle(islands_, current);
         rows_.remember();
-        attachments_.break_overloaded();
+        attachments_.end_step();
         const double gravity = glm::length(glm::dvec3(model_->gravity));
         if (restitution_.run(
                 {static_cast<double>(input.step), 2.0 * tuning::kRestingFall * gravity, system_.rows,
@@ -504,13 +505,17 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
                                 Nodes<Real>& current) {
     Field& d = system_.displacements;
     rows_.note(system_.rows, d, asleep_);
-    attachments_.note(system_.rows, d, asleep_);
+    attachments_.note(system_.rows, system_.slips(), asleep_);
     Field forces(d.size(), Vec3<Real>(0));  // of all but elements and gravity
     for (std::size_t n = 0; n < input.load_forces.size(); ++n) forces[n] = Vec3<Real>(input.load_forces[n]);
     std::erase_if(acting_, [&](const Acting& acting) { return !is_asleep(acting.row); });
-    for (const ContactRow<Real>& row : system_.rows) {
-        const Vec3<Real> s = slip<Real>(row, system_.displacements), force = row.force(s);
-        for (std::uint32_t k = 0; k < row.count; ++k) forces[row.nodes[k]] += row.weights[k] * force;
+    for (std::size_t r = 0; r < system_.rows.size(); ++r) {
+        const ContactRow<Real>& row = system_.rows[r];
+        const Vec3<Real> s = system_.slips()[r], force = row.force(s);
+        // Of bodies that are attached to each other, whose momenta go together, it is none from outside.
+        const bool is_outside = !row.is_tie() || row.object == kNoNode || !model_->is_body(row.object);
+        for (std::uint32_t k = 0; is_outside && k < row.count; ++k)
+            forces[row.nodes[k]] += row.weights[k] * force;
         const Vec3<Real> normal = row.pressing(s) * row.normal;
         if (force != Vec3<Real>(0)) acting_.push_back({row, normal, force - normal});
     }

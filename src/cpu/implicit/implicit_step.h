@@ -37,6 +37,7 @@ struct StepInput {
     Real divided;                                  ///< of which it is a part, or 0: it is whole [s]
     std::span<const Vec4<Real>> load_forces = {};  ///< [N], shape [nodes], or empty
     const Pulls<Real>* pulls = nullptr;            ///< null: no hand holds anything
+    std::span<const MotorTarget> motors = {};      ///< of attachments, or empty
     /// Whose sleeping bodies are held until something comes near them; null: none sleeps.
     RestWatch<Real>* rest_watch = nullptr;
 };
@@ -77,6 +78,10 @@ public:
         return attachments_.forces(nodes);
     }
     std::size_t attachment_count() const { return attachments_.count(); }
+    /// Bodies.
+    std::vector<std::uint32_t> moved_by(std::span<const MotorTarget> motors) const {
+        return attachments_.moved_by(motors);
+    }
     /// Of elements, contacts and hands on held nodes in the last step.
     /// @param forces output [N], shape [nodes]; empty before it. Those of bodies asleep stay.
     void find_forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous,

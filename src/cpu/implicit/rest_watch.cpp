@@ -48,6 +48,7 @@ bool RestWatch<Real>::begin(const Drive& drive) {
     if (drive.pulls != nullptr)
         for (const std::uint32_t n : drive.pulls->nodes())
             if (object_of_[n] < times_.size()) wake(object_of_[n]);
+    for (const std::uint32_t o : drive.moved) wake(o);
     const bool moves_colliders = wake_moved(drive);
     for_each_index(0, times_.size(), 1, [&](std::size_t o) {
         if (asleep_[o] != 0) return;

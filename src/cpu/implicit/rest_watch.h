@@ -26,12 +26,13 @@ public:
 
     /// What acts in the step that comes next.
     struct Drive {
-        double step;                            ///< [s]
-        std::span<const Vec4<Real>> positions;  ///< at its start, with held nodes in their new places
-        std::span<const float> load_factors;    ///< of the model's loads
-        const Pulls<Real>* pulls;               ///< null: no hand holds anything
-        std::span<const Vec3<Real>> held_at;    ///< where the last step left held nodes [m],
-                                                ///< shape [Model::handle_nodes]
+        double step;                                ///< [s]
+        std::span<const Vec4<Real>> positions;      ///< at its start, with held nodes in their new places
+        std::span<const float> load_factors;        ///< of the model's loads
+        const Pulls<Real>* pulls;                   ///< null: no hand holds anything
+        std::span<const Vec3<Real>> held_at;        ///< where the last step left held nodes [m],
+                                                    ///< shape [Model::handle_nodes]
+        std::span<const std::uint32_t> moved = {};  ///< bodies that motors move
     };
     /// Wakes those that are driven. @return whether a step has nothing to do: all rest, and no collider moves
     bool begin(const Drive& drive);

@@ -118,8 +118,10 @@ void RigidSolve<Real>::rotate(std::span<const Motion> motions) {
             const glm::dvec3 more = arms_[r][side] - arm - glm::cross(rotation(motions[b]), arm);
             turned += side == 0 ? -more : more;
         }
-        rows_.slips[r] += Vec3<Real>(turned) - rows_.rows[r].turned;
-        rows_.rows[r].turned = Vec3<Real>(turned);
+        ContactRow<Real>& row = rows_.rows[r];
+        const Vec3<Real> change = Vec3<Real>(turned) - row.turned;
+        rows_.slips[r] += row.is_tie() ? row.held_part(change) : change;
+        row.turned = Vec3<Real>(turned);
     });
 }
 
@@ -158,10 +160,11 @@ void RigidSolve<Real>::find_matrix() {
             const SymmetricMatrix<Real>& h = rows_.tangents[r].stiffness;
             if (!(h.diagonal.x + h.diagonal.y + h.diagonal.z > Real(0))) continue;
             const glm::dmat3 stiffness = matrix_of({glm::dvec3(h.diagonal), glm::dvec3(h.beside)});
-            pair.stiffness += stiffness;
+            const double whole = rows_.rows[r].is_couple ? 0.0 : 1.0;
+            pair.stiffness += whole * stiffness;
             for (std::size_t side = 0; side < 2; ++side) {
                 const glm::dmat3 by_rotation = times_cross(-stiffness, arms_[r][side]);
-                pair.by_rotation[side] += by_rotation;
+                pair.by_rotation[side] += whole * by_rotation;
                 pair.moments[side] += cross_times(arms_[r][side], by_rotation);
                 if (side == 1) pair.across += cross_times(arms_[r][0], by_rotation);
             }
@@ -244,7 +247,7 @@ void RigidSolve<Real>::add_rows(std::span<Motion> sums) const {
         glm::dvec3 force(0.0), moments[2] = {glm::dvec3(0.0), glm::dvec3(0.0)};
         for (std::uint32_t r = pairs_[p].rows.first; r < pairs_[p].rows.end(); ++r) {
             const glm::dvec3 f(rows_.forces[r]);
-            force += f;
+            if (!rows_.rows[r].is_couple) force += f;
             for (std::size_t side = 0; side < 2; ++side) moments[side] += glm::cross(arms_[r][side], f);
         }
         by_pair[p] = {-motion(force, moments[0]), motion(force, moments[1])};
@@ -262,10 +265,12 @@ Vec3<Real> RigidSolve<Real>::relative(std::size_t row, const std::array<glm::dve
     for (std::size_t side = 0; side < 2; ++side) {
         if (bodies[side] == kNoNode) continue;
         const Motion& m = motions[bodies[side]];
-        const glm::dvec3 d = displacement(m) + glm::cross(rotation(m), arms[side]);
+        glm::dvec3 d = glm::cross(rotation(m), arms[side]);
+        if (!rows_.rows[row].is_couple) d += displacement(m);
         s += side == 0 ? -d : d;
     }
-    return Vec3<Real>(s);
+    const ContactRow<Real>& of = rows_.rows[row];
+    return Vec3<Real>(of.is_tie() ? of.held_part(s) : s);
 }
 
 // Whether what is left of all forces on each body is no more than a part of what presses it.

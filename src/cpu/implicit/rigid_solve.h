@@ -60,7 +60,8 @@ public:
 private:
     // The places of its bodies, or kNoNode; of a body with itself none: its rows hardly resist its motion.
     // What its rows resist with, H, is at their points r of both sides: sums of H, -H [r], -[r] H [r], and
-    // -[r_0] H [r_1] for what couples them, where [r] v = r x v.
+    // -[r_0] H [r_1] for what couples them, where [r] v = r x v. Of rows that exert moments alone, r is a
+    // difference of points, and only what has moments counts.
     struct Pair {
         std::array<std::uint32_t, 2> bodies;
         Range rows;

@@ -47,7 +47,8 @@ bool SystemSolver<Real>::rests(const Step& step) {
         if (asked[held.node].w == Real(0)) asked[held.node] = Vec4<Real>(goals_[held.node], Real(0));
         held_at.push_back(held_at_.empty() ? Vec3<Real>(current_.positions[held.node]) : held_at_[held.node]);
     }
-    if (!rest_watch_->begin({step.size, asked, step.load_factors, this->acting_pulls(), held_at}))
+    if (!rest_watch_->begin({step.size, asked, step.load_factors, this->acting_pulls(), held_at,
+                             step_.moved_by(step.motors)}))
         return false;
     for (std::size_t n = 0; n < goals_.size(); ++n) {
         Vec4<Real>&position = current_.positions[n], &velocity = current_.velocities[n];
@@ -70,8 +71,9 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
     if (rests(step)) return;
     const std::vector<Vec4<Real>> velocities = current_.velocities;
     const Real shortest = size / static_cast<Real>(tuning::kMostParts);
-    StepInput<Real> input{size, divides_steps_ ? size : Real(0), load_forces_, this->acting_pulls(),
-                          rest_watch_ ? &*rest_watch_ : nullptr};
+    StepInput<Real> input{size,         divides_steps_ ? size : Real(0),
+                          load_forces_, this->acting_pulls(),
+                          step.motors,  rest_watch_ ? &*rest_watch_ : nullptr};
     if (this->has_response()) step_.change();
     if (std::exchange(goes_on_, false)) step_.go_on(current_, previous_.velocities, size);
     to_ = current_;

@@ -22,9 +22,7 @@ public:
 
     ContactForces contact_forces() override { return step_.contact_forces(); }
     void set_attachments(const std::vector<Attachment>& attachments) override;
-    std::vector<AttachmentForce> attachment_forces() override {
-        return step_.attachment_forces(current_);
-    }
+    std::vector<AttachmentForce> attachment_forces() override { return step_.attachment_forces(current_); }
     /// What contacts and their friction hold [J].
     double contact_energy() const { return step_.contact_energy(); }
     /// What the linear systems of all steps so far have cost.

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "cpu/implicit/contact_row.h"
+#include "cpu/nodes.h"
+#include "model/drive/attachment.h"
+
+namespace gelatin::cpu {
+
+/// The rows of a joint in a step (docs/rigid-bodies.md#joints). Directions and angles change within it: rows
+/// are linear about where frames are expected at its end.
+template <class Real>
+class JointRows {
+public:
+    /// @param positions when the step begins [m] @param expected displacements [m], shape [nodes]
+    JointRows(const Attachment& attachment, std::span<const Vec4<Real>> positions,
+              std::span<const Vec3<Real>> expected);
+
+    /// Adds all.
+    /// @param motor_hold what the motor held along the axis, reversed, when the last step ended [N]
+    /// @param blank with what all rows of the attachment have
+    /// @param stiffness_of a row by the nodes it has: of what does not yield; 0: nothing of it is free
+    void add(const MotorTarget& motor, Real motor_hold, double step, const ContactRow<Real>& blank,
+             const std::function<Real(const ContactRow<Real>&)>& stiffness_of,
+             std::vector<ContactRow<Real>>& rows) const;
+    /// Along which the coordinate grows.
+    Vec3<Real> axis() const { return Vec3<Real>(axis_); }
+    /// What the effort is for a force along it [m] or 1.
+    double scale() const { return joint_.kind == Joint::Kind::hinge ? joint_.lever : 1.0; }
+
+private:
+    // Of what a row ties, in the coordinates of both frames: 1 or 0 for the point, and of its axes.
+    struct Sides {
+        glm::dvec4 own, other;
+    };
+    ContactRow<Real> row_of(const ContactRow<Real>& blank, const Sides& sides) const;
+    glm::dvec3 apart(const Sides& sides) const;
+    void find_coordinate();
+
+    const Joint& joint_;
+    std::span<const Vec4<Real>> positions_;
+    Frame own_, other_, own_end_, other_end_;
+    double start_ = 0.0, end_ = 0.0;  // the coordinate
+    // Along n the row of the coordinate has scale() times it, but for an offset.
+    Sides sides_{};
+    glm::dvec3 axis_{0.0};
+    double offset_ = 0.0;
+};
+
+}  // namespace gelatin::cpu
