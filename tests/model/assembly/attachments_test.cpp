@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
@@ -307,7 +308,7 @@ TEST(MakeAttachment, AnglesOfTheSceneAreDegrees) {
 }
 
 TEST(MotorAt, FollowsKeyframes) {
-    const AttachmentDescription slider{.where = AttachedRail{}};
+    const AttachmentDescription slider{.object = "a", .where = AttachedRail{}};
     const JointMotor motor{.speed = 2.0, .keyframes = {{1.0, {}, 5.0}, {2.0, 3.0, {}, 7.0}}};
     const MotorTarget start = motor_at(slider, motor, 0.999), middle = motor_at(slider, motor, 1.0),
                       end = motor_at(slider, motor, 50.0);
@@ -323,7 +324,7 @@ TEST(MotorAt, FollowsKeyframes) {
 }
 
 TEST(MotorAt, TurnsDegreesIntoRadians) {
-    const AttachmentDescription hinge{.where = AttachedLine{}};
+    const AttachmentDescription hinge{.object = "a", .where = AttachedLine{}};
     const MotorTarget target = motor_at(hinge, {.speed = 180.0, .position = -90.0, .force = 3.0}, 0.0);
     EXPECT_DOUBLE_EQ(target.speed, glm::radians(180.0));
     EXPECT_DOUBLE_EQ(*target.position, glm::radians(-90.0));
