@@ -25,7 +25,7 @@ SCALAR = re.compile(r"^\s*(double|int|bool|std::string|glm::[di]vec3) (\w+)[;{ ]
 CHOSEN = re.compile(r"^\s*\w+ (\w+) = (\w+::\w+);", re.MULTILINE)
 STRINGS = re.compile(r'"((?:[^"\\]|\\.)*)"')
 TYPES = {"double": "number", "int": "whole number", "bool": "true or false", "std::string": "text", "std::filesystem::path": "text",
-         "glm::dvec3": "[x, y, z]", "glm::ivec3": "three whole numbers"}  # fmt: skip
+         "glm::dvec2": "two numbers", "glm::dvec3": "[x, y, z]", "glm::ivec3": "three whole numbers"}  # fmt: skip
 
 
 @dataclass

@@ -396,8 +396,8 @@ struct JointSpring {
 
 /// From a time on, until the next one: what a motor does otherwise. What is empty stays as it was.
 struct MotorKeyframe {
-    double time = 0.0;                                  ///< [s], >= 0
-    std::optional<double> speed, position, force = {};  ///< as of JointMotor
+    double time = 0.0;                                            ///< [s], >= 0
+    std::optional<double> speed = {}, position = {}, force = {};  ///< as of JointMotor
 };
 
 /// Moves a joint at a speed, or to a position; at least one of them is given. It holds it there, too.

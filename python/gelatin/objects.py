@@ -237,6 +237,87 @@ class AttachedLine:
 
 
 @dataclass(slots=True)
+class AttachedRail:
+    """A slider: the object does not rotate beside the other side, and moves along a direction. Both sides are rigid.
+
+    How far it has moved is the joint's coordinate.
+    """
+
+    #: a point on it [m], at the start
+    start: Vector
+    #: another one: in its direction the coordinate grows
+    end: Vector
+
+
+@dataclass(slots=True)
+class AttachedUniversal:
+    """A universal joint: a point that is kept, and two axes that stay perpendicular. Both sides are rigid."""
+
+    #: [m], at the start
+    at: Vector
+    #: the axis that moves with the object, at the start; of any length
+    own: Vector
+    #: the one that moves with the other side; within 1 degree of perpendicular
+    of_other: Vector
+
+
+@dataclass(slots=True)
+class AttachedDistance:
+    """A rod or a rope between two points. Their distance is the joint's coordinate.
+
+    Without limits, spring and motor it stays what it is.
+    """
+
+    #: on the object [m], at the start
+    start: Vector
+    #: on the other side, another point
+    end: Vector
+
+
+Attached = Union[Region, AttachedPoint, AttachedLine, AttachedRail, AttachedUniversal, AttachedDistance]
+
+
+@dataclass(slots=True)
+class JointSpring:
+    """Pulls a joint to where it rests. Its stiffness or its damping is greater than 0."""
+
+    #: [N m/rad] of a line, else [N/m], >= 0
+    stiffness: float = 0.0
+    #: [N m s/rad] of a line, else [N s/m], >= 0
+    damping: float = 0.0
+    #: [degrees] of a line, else [m]; None: where the joint is at the start
+    rest: float | None = None
+
+
+@dataclass(slots=True)
+class MotorKeyframe:
+    """From a time on, until the next one: what a motor does otherwise. What is None stays as it was."""
+
+    #: [s], >= 0
+    time: float = 0.0
+    #: as of JointMotor
+    speed: float | None = None
+    #: as of JointMotor
+    position: float | None = None
+    #: as of JointMotor
+    force: float | None = None
+
+
+@dataclass(slots=True)
+class JointMotor:
+    """Moves a joint at a speed, or to a position; at least one of them is given. It holds it there, too."""
+
+    #: [degrees/s] of a line, else [m/s]; where there is a position, it goes there no faster than that, which is > 0
+    speed: float | None = None
+    #: [degrees] of a line, else [m]
+    position: float | None = None
+    #: the greatest [N m] of a line, else [N], >= 0; None: whatever it takes
+    force: float | None = None
+    #: in ascending order of time
+    keyframes: list[MotorKeyframe] = field(default_factory=list)
+
+
+@dataclass(slots=True)
 class Attachment:
     """Keeps points of an object where they are in another one, in a collider, or in space. For the solver "implicit".
 
@@ -249,7 +330,7 @@ class Attachment:
     to: str = ""
     #: which points: of a region, the object's nodes in it; None: the nodes of its surface that are near what it is attached to,
     #: by half of its median edge
-    where: Union[Region, AttachedPoint, AttachedLine, None] = None
+    where: Attached | None = None
     #: of the whole attachment [m/N], >= 0; 0: as stiff as the bodies
     compliance: float = 0.0
     #: at which it breaks [N], > 0; None: never
@@ -257,6 +338,11 @@ class Attachment:
     #: in messages; empty: "attachment 1", by its place in the scene
     name: str = ""
     line: int = field(default=0, repr=False)
+    #: least and greatest coordinate of a joint [degrees] of a line, from -180 to 180, else [m]; the start is among them. Limits,
+    #: spring and motor are for AttachedRail, AttachedDistance, and AttachedLine between rigid sides.
+    limits: tuple[float, float] | None = None
+    spring: JointSpring | None = None
+    motor: JointMotor | None = None
 
 
 @dataclass(slots=True)

@@ -14,8 +14,8 @@ from typing import Any, Literal, Union, cast
 from . import _gelatin
 from .arguments import texts
 from .errors import InvalidInput
-from .objects import AttachedLine, AttachedPoint, Attachment, Camera, Collider, Object, Rigid
-from .shapes import File, Plane, Region, Shape, Vector
+from .objects import Attached, Attachment, Camera, Collider, Object, Rigid
+from .shapes import File, Plane, Shape, Vector
 
 
 @dataclass(slots=True)
@@ -206,7 +206,7 @@ class Scene:
         self,
         object: Union[str, Object],
         to: Union[str, Object, Collider] = "",
-        where: Union[Region, AttachedPoint, AttachedLine, None] = None,
+        where: Attached | None = None,
         **fields: Any,
     ) -> Attachment:
         """Attaches an object to another one, to a collider, or to where it is in space. `fields` are those of `gelatin.Attachment`.
@@ -230,7 +230,7 @@ class Scene:
 def attachment_of(
     object: Union[str, Object],
     to: Union[str, Object, Collider] = "",
-    where: Union[Region, AttachedPoint, AttachedLine, None] = None,
+    where: Attached | None = None,
     **fields: Any,
 ) -> Attachment:
     """As Scene.add_attachment, but of no scene."""

@@ -15,12 +15,11 @@ from .arguments import check_function, text, texts, whole_number
 from .bodies import Body
 from .errors import InvalidInput
 from .hands import Hand
-from .objects import AttachedLine, AttachedPoint, Attachment, Camera, Collider, Object
+from .objects import Attached, Attachment, Camera, Collider, JointMotor, Object
 from .pictures import Picture
 from .progress import counted, frames_with_bar
 from .recording import Recorder
 from .scene import Scene, attachment_of, load
-from .shapes import Region
 
 Array = npt.NDArray[np.float32]
 Callback = TypeVar("Callback", bound=Callable[["Simulator"], object])
@@ -270,7 +269,7 @@ class Simulator:
         self,
         object: Union[str, Object, Attachment],
         to: Union[str, Object, Collider] = "",
-        where: Union[Region, AttachedPoint, AttachedLine, None] = None,
+        where: Attached | None = None,
         **fields: Any,
     ) -> int:
         """Attaches an object from now on, as `Scene.add_attachment` does at the start. `reset` removes it, and checkpoints do not have it.
@@ -293,20 +292,50 @@ class Simulator:
 
     def detach(self, attachment: Union[int, str]) -> None:
         """Breaks an attachment, given by its place in `attachments` or by its name, until `reset`. Raises InvalidInput if there is none."""
+        self._core.detach(self._place_of(attachment))
+
+    def set_motor(
+        self,
+        attachment: Union[int, str],
+        motor: JointMotor | None = None,
+        *,
+        speed: float | None = None,
+        position: float | None = None,
+        force: float | None = None,
+    ) -> None:
+        """What the motor of a joint does from now on, until `reset`; not part of checkpoints. It replaces the motor as a whole.
+
+        attachment: its place in `attachments`, or its name.
+        motor: all of it; or else
+        speed, position, force: as of `gelatin.JointMotor`, [degrees/s], [degrees] and [N m] of a line, [m/s], [m] and [N] of a
+            rail and a distance. Without a force: whatever it takes. With a force of 0 it does nothing.
+
+        Raises InvalidInput for an attachment that there is not or that has no coordinate, and for values that are not allowed.
+        """
+        if motor is None:
+            motor = JointMotor(speed, position, force)
+        elif not (speed is None and position is None and force is None):
+            raise InvalidInput("motor: a gelatin.JointMotor says all of it: no other argument is allowed")
+        self._core.set_motor(self._place_of(attachment), motor)
+
+    def attachments(self) -> list[dict[str, Any]]:
+        """For each attachment, in the order of the scene's: `name`, `force` on its object [N] and `is_broken`.
+
+        The force is that at the end of the last step; of a broken one, what broke it. A joint that has a coordinate has `joint`,
+        too: `position` [rad] of a line, else [m], `speed` [rad/s] or [m/s], and `effort` of limits, spring and motor, or of what
+        keeps a distance [N m] or [N]. A recording has no attachments.
+        """
+        return self._core.attachments()
+
+    def _place_of(self, attachment: Union[int, str]) -> int:
+        """Of an attachment in `attachments`, by its name. Raises InvalidInput if there is none."""
         if isinstance(attachment, str):
             names = [status["name"] for status in self.attachments()]
             if attachment not in names:
                 known = f"there is {', '.join(names)}" if names else "there is none"
                 raise InvalidInput(f"attachment = {attachment!r}: is not the name of an attachment; {known}")
             attachment = names.index(attachment)
-        self._core.detach(whole_number("attachment", attachment))
-
-    def attachments(self) -> list[dict[str, Any]]:
-        """For each attachment, in the order of the scene's: `name`, `force` on its object [N] and `is_broken`.
-
-        The force is that at the end of the last step; of a broken one, what broke it. A recording has none.
-        """
-        return self._core.attachments()
+        return whole_number("attachment", attachment)
 
     # Pictures
 

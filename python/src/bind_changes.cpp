@@ -103,6 +103,13 @@ void bind_changes(nb::class_<PythonSimulator>& simulator) {
             },
             nb::arg("attachment"))
         .def(
+            "set_motor",
+            [](PythonSimulator& self, std::size_t attachment, nb::handle source) {
+                const JointMotor motor = motor_of(source);
+                self.use([&](Simulator& s) { s.set_motor(attachment, motor); });
+            },
+            nb::arg("attachment"), nb::arg("motor"))
+        .def(
             "set_pulls",
             [](PythonSimulator& self, const std::vector<PullValues>& values) {
                 std::vector<Pull> pulls;

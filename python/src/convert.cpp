@@ -4,14 +4,14 @@ namespace gelatin::python {
 namespace {
 
 template <class Vector>
-void read_vector(nb::handle source, const std::string& where, const char* kind, Vector& value) {
-    const auto fail = [&] { raise_type_error(where, std::string("three ") + kind, source); };
+void read_vector(nb::handle source, const std::string& where, const char* allowed, Vector& value) {
+    const auto fail = [&] { raise_type_error(where, allowed, source); };
     if (nb::isinstance<nb::str>(source) || !PySequence_Check(source.ptr()) ||
-        PySequence_Size(source.ptr()) != 3) {
+        PySequence_Size(source.ptr()) != Vector::length()) {
         PyErr_Clear();
         fail();
     }
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < Vector::length(); ++k) {
         const nb::object element = nb::steal(PySequence_GetItem(source.ptr(), k));
         read(element, where + "[" + std::to_string(k) + "]", value[k]);
     }
@@ -94,12 +94,16 @@ void read(nb::handle source, const std::string& where, Automatic& value) {
     read(source, where, value.number.emplace());
 }
 
+void read(nb::handle source, const std::string& where, glm::dvec2& value) {
+    read_vector(source, where, "two numbers", value);
+}
+
 void read(nb::handle source, const std::string& where, glm::dvec3& value) {
-    read_vector(source, where, "numbers", value);
+    read_vector(source, where, "three numbers", value);
 }
 
 void read(nb::handle source, const std::string& where, glm::ivec3& value) {
-    read_vector(source, where, "integers", value);
+    read_vector(source, where, "three integers", value);
 }
 
 nb::object to_python(bool value) {
@@ -116,6 +120,9 @@ nb::object to_python(const std::string& value) {
 }
 nb::object to_python(const std::filesystem::path& value) {
     return to_python(value.string());
+}
+nb::object to_python(const glm::dvec2& value) {
+    return nb::make_tuple(value.x, value.y);
 }
 nb::object to_python(const glm::dvec3& value) {
     return tuple_of(value);

@@ -4,6 +4,7 @@
 #include <nanobind/stl/string.h>
 
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -28,6 +29,7 @@ void read(nb::handle source, const std::string& where, int& value);
 void read(nb::handle source, const std::string& where, double& value);
 void read(nb::handle source, const std::string& where, std::string& value);
 void read(nb::handle source, const std::string& where, std::filesystem::path& value);
+void read(nb::handle source, const std::string& where, glm::dvec2& value);
 void read(nb::handle source, const std::string& where, glm::dvec3& value);
 void read(nb::handle source, const std::string& where, glm::ivec3& value);
 void read(nb::handle source, const std::string& where, Automatic& value);
@@ -39,6 +41,7 @@ nb::object to_python(int value);
 nb::object to_python(double value);
 nb::object to_python(const std::string& value);
 nb::object to_python(const std::filesystem::path& value);
+nb::object to_python(const glm::dvec2& value);
 nb::object to_python(const glm::dvec3& value);
 nb::object to_python(const glm::ivec3& value);
 nb::object to_python(const Automatic& value);

@@ -208,6 +208,72 @@ struct Fields<AttachedLine> {
 };
 
 template <>
+struct Fields<AttachedRail> {
+    static constexpr const char* kClass = "AttachedRail";
+    static void visit(AttachedRail& r, auto&& field) {
+        auto& [from, to] = r;
+        field("start", from);
+        field("end", to);
+    }
+};
+
+template <>
+struct Fields<AttachedUniversal> {
+    static constexpr const char* kClass = "AttachedUniversal";
+    static void visit(AttachedUniversal& u, auto&& field) {
+        auto& [at, own, of_other] = u;
+        field("at", at);
+        field("own", own);
+        field("of_other", of_other);
+    }
+};
+
+template <>
+struct Fields<AttachedDistance> {
+    static constexpr const char* kClass = "AttachedDistance";
+    static void visit(AttachedDistance& d, auto&& field) {
+        auto& [from, to] = d;
+        field("start", from);
+        field("end", to);
+    }
+};
+
+template <>
+struct Fields<JointSpring> {
+    static constexpr const char* kClass = "JointSpring";
+    static void visit(JointSpring& s, auto&& field) {
+        auto& [stiffness, damping, rest] = s;
+        field("stiffness", stiffness);
+        field("damping", damping);
+        field("rest", rest);
+    }
+};
+
+template <>
+struct Fields<MotorKeyframe> {
+    static constexpr const char* kClass = "MotorKeyframe";
+    static void visit(MotorKeyframe& k, auto&& field) {
+        auto& [time, speed, position, force] = k;
+        field("time", time);
+        field("speed", speed);
+        field("position", position);
+        field("force", force);
+    }
+};
+
+template <>
+struct Fields<JointMotor> {
+    static constexpr const char* kClass = "JointMotor";
+    static void visit(JointMotor& m, auto&& field) {
+        auto& [speed, position, force, keyframes] = m;
+        field("speed", speed);
+        field("position", position);
+        field("force", force);
+        field("keyframes", keyframes);
+    }
+};
+
+template <>
 struct Fields<AttachmentDescription> {
     static constexpr const char* kClass = "Attachment";
     static void visit(AttachmentDescription& a, auto&& field) {
@@ -218,6 +284,9 @@ struct Fields<AttachmentDescription> {
         field("where", where);
         field("compliance", compliance);
         field("break_force", break_force);
+        field("limits", limits);
+        field("spring", spring);
+        field("motor", motor);
         field("line", line);
     }
 };

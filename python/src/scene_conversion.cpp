@@ -44,6 +44,10 @@ AttachmentDescription attachment_of(nb::handle source) {
     return read_as<AttachmentDescription>(source, "attachment");
 }
 
+JointMotor motor_of(nb::handle source) {
+    return read_as<JointMotor>(source, "motor");
+}
+
 nb::object python_scene(const Scene& scene) {
     return to_python(scene);
 }
@@ -53,8 +57,8 @@ nb::dict scene_defaults() {
                        SphereShape, BoxShape, CapsuleShape, TextShape, MesherSettings, Keyframe,
                        DragDescription, HandleDescription, ForceLoad, TractionLoad, PressureLoad,
                        LoadDescription, PartDescription, StartDescription, RigidDescription,
-                       ObjectDescription, PlaneCollider, ColliderDescription, AttachmentDescription,
-                       CameraDescription, Scene>();
+                       ObjectDescription, PlaneCollider, ColliderDescription, JointSpring, MotorKeyframe,
+                       JointMotor, AttachmentDescription, CameraDescription, Scene>();
 }
 
 }  // namespace gelatin::python

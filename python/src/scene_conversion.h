@@ -10,10 +10,11 @@ namespace gelatin::python {
 /// @throws nanobind's TypeError for a value of another type; InvalidInput for a word that is not allowed
 Scene scene_of(nanobind::handle source);
 
-/// The same for gelatin.Material, gelatin.Camera and gelatin.Attachment.
+/// The same for gelatin.Material, gelatin.Camera, gelatin.Attachment and gelatin.JointMotor.
 Material material_of(nanobind::handle source);
 CameraDescription camera_of(nanobind::handle source);
 AttachmentDescription attachment_of(nanobind::handle source);
+JointMotor motor_of(nanobind::handle source);
 
 /// An instance of gelatin.Scene.
 nanobind::object python_scene(const Scene& scene);

@@ -32,6 +32,14 @@ nb::dict to_dict(const HoldingForce& force, const RunReport& names) {
     return all;
 }
 
+nb::dict to_dict(const JointStatus& joint) {
+    nb::dict all;
+    all["position"] = joint.position;
+    all["speed"] = joint.speed;
+    all["effort"] = joint.effort;
+    return all;
+}
+
 }  // namespace
 
 nb::list to_list(const std::vector<AttachmentStatus>& attachments) {
@@ -41,6 +49,7 @@ nb::list to_list(const std::vector<AttachmentStatus>& attachments) {
         all["name"] = attachment.name;
         all["force"] = vector_of(attachment.force);
         all["is_broken"] = attachment.is_broken;
+        if (attachment.joint) all["joint"] = to_dict(*attachment.joint);
         list.append(all);
     }
     return list;

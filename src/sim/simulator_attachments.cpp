@@ -71,7 +71,6 @@ void Simulator::set_motor(std::size_t attachment, const JointMotor& motor) {
     d.require_attachment(attachment);
     Scene next = d.scene;
     next.attachments[attachment].motor = motor;
-    next.attachments[attachment].motor->keyframes.clear();
     validate(next);
     d.motors[attachment] = motor;
 }

@@ -64,6 +64,10 @@ class CheckSceneKeys(unittest.TestCase):
         self.assert_missing_if_renamed("scene_file_drives.cpp", "until", "object.load", "rigid.load")
         self.assert_missing_if_renamed("scene_file_drives.cpp", "break_force", "attachment")
         self.assert_missing_if_renamed("scene_file_drives.cpp", "line", "attachment")
+        self.assert_missing_if_renamed("scene_file_drives.cpp", "limits", "attachment")
+        self.assert_missing_if_renamed("scene_file_drives.cpp", "of_other", "attachment.universal")
+        self.assert_missing_if_renamed("scene_file_drives.cpp", "rest", "attachment.spring")
+        self.assert_missing_if_renamed("scene_file_drives.cpp", "position", "attachment.motor", "attachment.motor.keyframes")
         self.assert_missing_if_renamed("scene_file_copies.cpp", "jitter", "object.copies", "rigid.copies")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "scatter", "object.start")
         self.assert_missing_if_renamed("scene_file_bodies.cpp", "cell_size", "object.mesher")
@@ -107,6 +111,9 @@ class SceneKeys(unittest.TestCase):
         self.assertEqual((attachment["compliance"].default, attachment["compliance"].allowed), ("0.0", "0 or more"))
         self.assertEqual((attachment["point"].type, attachment["line"].type), ("[x, y, z]", "[[x, y, z], [x, y, z]]"))
         self.assertTrue(attachment["object"].required)
+        self.assertEqual(attachment["limits"].type, "two numbers")
+        self.assertEqual(tables["attachment.spring"]["stiffness"].allowed, "0 or more")
+        self.assertTrue(tables["attachment.motor.keyframes"]["time"].required)
 
     def test_every_key_has_a_row(self):
         text = page(ROOT)

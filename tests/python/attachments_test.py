@@ -115,3 +115,73 @@ def test_what_is_wrong_is_named():
             wrong()
         assert message in str(caught.value)
     assert len(sim.attachments()) == len(sim.scene.attachments) == 1
+
+
+def rail(direction=(0, -1, 0), **fields):
+    """A cube that falls along a rail."""
+    scene = gelatin.Scene()
+    scene.add_material("wood")
+    scene.add_rigid("cube", gelatin.Box((0.2, 0.2, 0.2)), position=(0, 2, 0))
+    scene.add("jelly", gelatin.Box((0.2, 0.2, 0.2)), position=(2, 2, 0))
+    scene.add_attachment("cube", where=gelatin.AttachedRail((0, 2, 0), tuple(np.add((0, 2, 0), direction))), name="rail", **fields)
+    scene.add_attachment("cube", where=gelatin.AttachedPoint((0, 2, 0)), name="point")
+    scene.add_attachment("jelly", where=gelatin.AttachedLine((2, 2, 0), (2, 2, 0.1)), name="soft hinge")
+    return scene
+
+
+def test_joints_have_a_coordinate():
+    scene = rail()
+    del scene.attachments[1]
+    sim = simulate(scene)
+    assert sim.attachments()[0]["joint"] == {"position": pytest.approx(0, abs=1e-6), "speed": 0, "effort": 0}
+    assert "joint" not in sim.attachments()[1]
+    sim.advance(30)
+    joint = sim.attachments()[0]["joint"]
+    assert joint["position"] == pytest.approx(0.5 * 9.81 * sim.time**2, rel=0.05)
+    assert joint["speed"] == pytest.approx(9.81 * sim.time, rel=0.01)
+    assert sim.statistics()["attachments"] == sim.attachments()
+
+
+@pytest.mark.parametrize("which", [0, "rail"])
+def test_motors_are_set(which):
+    sim = simulate(rail(motor=gelatin.JointMotor(speed=1.0, force=2.0)))
+    sim.set_motor(which, speed=-2.0)
+    sim.set_motor(which, position=2, speed=1, force=0)
+    sim.set_motor(which, gelatin.JointMotor(speed=1, keyframes=[gelatin.MotorKeyframe(0.5, position=1)]))
+    assert sim.scene.attachments[0].motor == gelatin.JointMotor(speed=1.0, force=2.0)  # what it does at the start
+
+
+def test_motors_that_are_wrong_are_named():
+    sim = simulate(rail())
+    invalid = gelatin.InvalidInput
+    motor = gelatin.JointMotor(1, keyframes=[gelatin.MotorKeyframe(1, speed=2), gelatin.MotorKeyframe(1, speed=3)])
+    for wrong, error, message in (
+        (lambda: sim.set_motor("rial", speed=1), invalid, "attachment = 'rial': is not the name of an attachment; there is rail, point, soft hinge"),
+        (lambda: sim.set_motor(3, speed=1), invalid, "there is no attachment 3: there are 3, from 0"),
+        (lambda: sim.set_motor(-1, speed=1), invalid, "attachment = -1: must be 0 or more"),
+        (lambda: sim.set_motor(0.5, speed=1), TypeError, "attachment = 0.5: must be an integer, 0 or more"),
+        (lambda: sim.set_motor("rail"), invalid, "attachment.rail.motor: needs a speed or a position"),
+        (lambda: sim.set_motor("rail", speed="fast"), TypeError, "motor.speed = 'fast': must be a number"),
+        (lambda: sim.set_motor("rail", 3), TypeError, "motor = 3: must be a JointMotor"),
+        (lambda: sim.set_motor("rail", motor, speed=1), invalid, "motor: a gelatin.JointMotor says all of it: no other argument is allowed"),
+        (lambda: sim.set_motor("rail", speed=1, force=-1), invalid, "attachment.rail.motor.force = -1: must be 0 or more"),
+        (
+            lambda: sim.set_motor("rail", position=1, speed=0),
+            invalid,
+            "attachment.rail.motor.speed = 0: must be greater than 0 where there is a position",
+        ),
+        (
+            lambda: sim.set_motor("rail", motor),
+            invalid,
+            "attachment.rail.motor.keyframes[1].time = 1: must be greater than that of the keyframe before, 1",
+        ),
+        (lambda: sim.set_motor("point", speed=1), invalid, "attachment.point.motor: needs a line, a rail or a distance"),
+        (
+            lambda: sim.set_motor(2, speed=1),
+            invalid,
+            "attachment.soft hinge.motor: at a line both sides must be rigid, and 'jelly' is deformable",
+        ),
+    ):
+        with pytest.raises(error) as caught:
+            wrong()
+        assert str(caught.value) == message

@@ -81,6 +81,14 @@ def scene_with_everything():
         gelatin.Attachment("o", where=gelatin.AttachedPoint((1.0, 2.0, 3.0))),
         gelatin.Attachment("o", where=gelatin.AttachedLine((1.0, 2.0, 3.0), (4.0, 5.0, 6.0))),
         gelatin.Attachment("o", "belt"),
+        gelatin.Attachment("r", where=gelatin.AttachedRail((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), limits=(-1.0, 2.0)),
+        gelatin.Attachment("r", where=gelatin.AttachedUniversal((1.0, 2.0, 3.0), (4.0, 0.0, 0.0), (0.0, 5.0, 0.0))),
+        gelatin.Attachment("r", where=gelatin.AttachedDistance((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), spring=gelatin.JointSpring(1.0, 2.0, 3.0)),
+        gelatin.Attachment(
+            "r",
+            where=gelatin.AttachedLine((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)),
+            motor=gelatin.JointMotor(1.0, 2.0, 3.0, [gelatin.MotorKeyframe(4.0, 5.0, 6.0, 7.0)]),
+        ),
     ]
     scene.camera = gelatin.Camera((1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 40.0)
     scene.file = "scene.toml"
@@ -205,8 +213,15 @@ def test_vectors_may_be_arrays():
         (lambda s: setattr(s.attachments[1], "to", None), "attachments[1].to = None: must be a str"),
         (
             lambda s: setattr(s.attachments[0], "where", 3),
-            "attachment.hook.where = 3: must be one of None, BoxRegion, SphereRegion, HalfSpaceRegion, AttachedPoint, AttachedLine",
+            "attachment.hook.where = 3: must be one of None, BoxRegion, SphereRegion, HalfSpaceRegion, AttachedPoint, AttachedLine, "
+            "AttachedRail, AttachedUniversal, AttachedDistance",
         ),
+        (lambda s: setattr(s.attachments[0], "limits", 3), "attachment.hook.limits = 3: must be two numbers"),
+        (lambda s: setattr(s.attachments[0], "limits", (1, 2, 3)), "attachment.hook.limits = (1, 2, 3): must be two numbers"),
+        (lambda s: setattr(s.attachments[0], "limits", (1, "x")), "attachment.hook.limits[1] = 'x': must be a number"),
+        (lambda s: setattr(s.attachments[0], "spring", 3), "attachment.hook.spring = 3: must be a JointSpring"),
+        (lambda s: setattr(s.attachments[0], "motor", {}), "attachment.hook.motor = {}: must be a JointMotor"),
+        (lambda s: setattr(s.attachments[7].motor.keyframes[0], "speed", "x"), "attachments[7].motor.keyframes[0].speed = 'x': must be a number"),
         (lambda s: setattr(s, "camera", 3), "camera = 3: must be a Camera"),
         (lambda s: setattr(s.objects[0], "name", 3), "objects[0].name = 3: must be a str"),
     ],
@@ -354,3 +369,42 @@ def test_attachments_of_files(tmp_path):
     glue, hinge = gelatin.load(file, {"attachment.hinge.compliance": 0.5}).attachments
     assert glue == gelatin.Attachment("a", "b", line=9)
     assert hinge == gelatin.Attachment("b", "", gelatin.AttachedLine((0.0, 1.0, 0.0), (0.0, 1.0, 2.0)), 0.5, None, "hinge", 12)
+
+
+def test_joints_of_files(tmp_path):
+    file = tmp_path / "joints.toml"
+    file.write_text(
+        '[[material]]\nname = "m"\n[[rigid]]\nname = "a"\nshape = { sphere = 1 }\n[[rigid]]\nname = "b"\nshape = { sphere = 1 }\n'
+        '[[attachment]]\nname = "hinge"\nobject = "a"\nto = "b"\nline = [[0, 1, 0], [0, 1, 2]]\nlimits = [0, 90]\nspring = { stiffness = 3 }\n'
+        'motor = { speed = 5, keyframes = [{ time = 1, force = 2 }] }\n'
+        '[[attachment]]\nobject = "a"\nuniversal = { point = [0, 1, 0], own = [1, 0, 0], of_other = [0, 0, 1] }\n'
+        '[[attachment]]\nobject = "a"\nrail = [[0, 1, 0], [0, 2, 0]]\n[[attachment]]\nobject = "b"\ndistance = [[0, 1, 0], [0, 3, 0]]\n'
+    )
+    hinge, universal, rail, rod = gelatin.load(file, {"attachment.hinge.motor.speed": 90, "attachment.hinge.limits": [-5, 90]}).attachments
+    assert hinge.limits == (-5.0, 90.0) and hinge.spring == gelatin.JointSpring(3.0)
+    assert hinge.motor == gelatin.JointMotor(90.0, keyframes=[gelatin.MotorKeyframe(1.0, force=2.0)])
+    assert universal.where == gelatin.AttachedUniversal((0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    assert rail.where == gelatin.AttachedRail((0.0, 1.0, 0.0), (0.0, 2.0, 0.0))
+    assert rod.where == gelatin.AttachedDistance((0.0, 1.0, 0.0), (0.0, 3.0, 0.0))
+    assert rod.limits is None and rod.spring is None and rod.motor is None
+
+
+@pytest.mark.parametrize(
+    "fields, message",
+    [
+        ({"limits": (10, 20)}, "attachment.hinge.limits = [10, 20]: must include 0, where the joint is at the start"),
+        ({"spring": gelatin.JointSpring()}, "attachment.hinge.spring: needs a stiffness or a damping above 0"),
+        ({"motor": gelatin.JointMotor(force=3)}, "attachment.hinge.motor: needs a speed or a position"),
+        ({"motor": gelatin.JointMotor(3), "to": "jelly"}, "attachment.hinge.motor: at a line both sides must be rigid, and 'jelly' is deformable"),
+        ({"where": gelatin.AttachedPoint((0, 0, 0)), "limits": (0, 1)}, "attachment.hinge.limits = [0, 1]: needs a line, a rail or a distance"),
+    ],
+)
+def test_wrong_values_of_joints_are_named(fields, message):
+    scene = gelatin.Scene()
+    scene.add_material("m")
+    scene.add_rigid("door", gelatin.Box())
+    scene.add("jelly", gelatin.Box())
+    scene.add_attachment("door", **{"where": gelatin.AttachedLine((0, 0, 0), (0, 1, 0)), "name": "hinge", **fields})
+    with pytest.raises(gelatin.InvalidInput) as caught:
+        scene.validate()
+    assert str(caught.value) == message

@@ -82,6 +82,9 @@ def scene_with_names():
     scene.add_rigid("crate", gelatin.Box(), mass=2.0)
     scene.colliders[0].name = "floor"
     scene.add_attachment("ball", "floor", gelatin.AttachedPoint((0.0, 0.0, 0.0)), name="joint")
+    motor = gelatin.JointMotor(1.0, keyframes=[gelatin.MotorKeyframe(1.0, 2.0)])
+    hinge = gelatin.AttachedLine((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    scene.add_attachment("crate", "", hinge, name="hinge", limits=(-1.0, 1.0), spring=gelatin.JointSpring(1.0), motor=motor)
     return scene
 
 
@@ -102,6 +105,10 @@ def scene_with_names():
         ("collider.floor.friction", 0.9, lambda s: s.colliders[0].friction),
         ("attachment.joint.compliance", 0.5, lambda s: s.attachments[0].compliance),
         ("attachment.0.point", [0, 1, 0], lambda s: s.attachments[0].where.at),
+        ("attachment.hinge.limits", [0, 90], lambda s: s.attachments[1].limits),
+        ("attachment.hinge.spring.stiffness", 5.0, lambda s: s.attachments[1].spring.stiffness),
+        ("attachment.hinge.motor.speed", 90.0, lambda s: s.attachments[1].motor.speed),
+        ("attachment.hinge.motor.keyframes.0.speed", 3.0, lambda s: s.attachments[1].motor.keyframes[0].speed),
     ],
 )
 def test_keys_are_those_of_scene_files(key, value, read):
@@ -161,6 +168,10 @@ def test_every_key_leads_to_a_field():
     for where, key in (
         (gelatin.SphereRegion((0, 2, 0), 0.2), "region.sphere"),
         (gelatin.AttachedLine((0, 0, 0), (0, 0, 1)), "line.end"),
+        (gelatin.AttachedRail((0, 0, 0), (0, 0, 1)), "rail.start"),
+        (gelatin.AttachedUniversal((0, 0, 0), (0, 0, 1), (1, 0, 0)), "universal.point"),
+        (gelatin.AttachedUniversal((0, 0, 0), (0, 0, 1), (1, 0, 0)), "universal.of_other"),
+        (gelatin.AttachedDistance((0, 0, 0), (0, 0, 1)), "distance.end"),
         (gelatin.AttachedPoint((0, 0, 0)), "point"),
     ):
         joint.where = where

@@ -14,6 +14,7 @@ inline constexpr Limit kAnyNumber{"a number", [](double) { return true; }};
 inline constexpr Limit kPositive{"greater than 0", [](double v) { return v > 0.0; }};
 inline constexpr Limit kNotNegative{"0 or more", [](double v) { return v >= 0.0; }};
 inline constexpr Limit kFraction{"from 0 to 1", [](double v) { return v >= 0.0 && v <= 1.0; }};
+inline constexpr Limit kHalfTurn{"from -180 to 180", [](double v) { return v >= -180.0 && v <= 180.0; }};
 inline constexpr Limit kSubsteps{"\"auto\" or from 1 to 1000000",
                                  [](double v) { return v >= 1.0 && v <= 1e6; }};
 

@@ -30,6 +30,69 @@ Region require_region(TableReader& reader) {
     return read_region(*reader.table("region"));
 }
 
+AttachedUniversal read_universal(TableReader reader) {
+    AttachedUniversal universal{};
+    reader.require({"point", "own", "of_other"});
+    reader.read("point", universal.at);
+    reader.read("own", universal.own);
+    reader.read("of_other", universal.of_other);
+    reader.finish();
+    return universal;
+}
+
+JointSpring read_joint_spring(TableReader reader) {
+    JointSpring spring;
+    reader.read("stiffness", spring.stiffness);
+    reader.read("damping", spring.damping);
+    reader.read("rest", spring.rest);
+    reader.finish();
+    return spring;
+}
+
+MotorKeyframe read_motor_keyframe(TableReader reader) {
+    MotorKeyframe keyframe;
+    reader.require({"time"});
+    reader.read("time", keyframe.time);
+    reader.read("speed", keyframe.speed);
+    reader.read("position", keyframe.position);
+    reader.read("force", keyframe.force);
+    reader.finish();
+    return keyframe;
+}
+
+JointMotor read_motor(TableReader reader) {
+    JointMotor motor;
+    reader.read("speed", motor.speed);
+    reader.read("position", motor.position);
+    reader.read("force", motor.force);
+    for (const TableReader& keyframe : reader.tables("keyframes"))
+        motor.keyframes.push_back(read_motor_keyframe(keyframe));
+    reader.finish();
+    return motor;
+}
+
+// Which points it keeps.
+void read_where(TableReader& reader, AttachmentDescription& attachment) {
+    const std::string where =
+        reader.at_most_one_of({"region", "point", "line", "rail", "universal", "distance"});
+    if (where == "region") {
+        attachment.where = read_region(*reader.table("region"));
+    } else if (where == "point") {
+        reader.read("point", attachment.where.emplace<AttachedPoint>().at);
+    } else if (where == "line") {
+        const auto [from, to] = reader.read_two_points("line", "points");
+        attachment.where = AttachedLine{from, to};
+    } else if (where == "rail") {
+        const auto [from, to] = reader.read_two_points("rail", "points");
+        attachment.where = AttachedRail{from, to};
+    } else if (where == "universal") {
+        attachment.where = read_universal(*reader.table("universal"));
+    } else if (where == "distance") {
+        const auto [from, to] = reader.read_two_points("distance", "points");
+        attachment.where = AttachedDistance{from, to};
+    }
+}
+
 AttachmentDescription read_attachment(TableReader& reader) {
     AttachmentDescription attachment;
     attachment.line = reader.line();
@@ -38,17 +101,12 @@ AttachmentDescription read_attachment(TableReader& reader) {
     reader.require({"object"});
     reader.read("object", attachment.object);
     reader.read("to", attachment.to);
-    const std::string where = reader.at_most_one_of({"region", "point", "line"});
-    if (where == "region") {
-        attachment.where = read_region(*reader.table("region"));
-    } else if (where == "point") {
-        reader.read("point", attachment.where.emplace<AttachedPoint>().at);
-    } else if (where == "line") {
-        const auto [from, to] = reader.read_two_points("line", "points");
-        attachment.where = AttachedLine{from, to};
-    }
+    read_where(reader, attachment);
     reader.read("compliance", attachment.compliance);
     reader.read("break_force", attachment.break_force);
+    if (reader.has("limits")) reader.read("limits", attachment.limits.emplace());
+    if (auto spring = reader.table("spring")) attachment.spring = read_joint_spring(std::move(*spring));
+    if (auto motor = reader.table("motor")) attachment.motor = read_motor(std::move(*motor));
     reader.finish();
     return attachment;
 }

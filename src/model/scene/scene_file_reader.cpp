@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <sstream>
+#include <type_traits>
 
 namespace gelatin {
 namespace {
@@ -146,14 +147,30 @@ int TableReader::whole_number(const toml::node& node, std::string_view key) cons
     return static_cast<int>(value);
 }
 
-const toml::array& TableReader::three(const toml::node& node, const char* key) const {
+const toml::array& TableReader::list_of(std::size_t count, const toml::node& node, const char* key) const {
     const toml::array* array = node.as_array();
     if (array == nullptr)
-        fail_at(node, key, fmt::format("must be a list of 3 numbers, is {}", kind_of(node)));
-    if (array->size() != 3) {
-        fail_at(node, key, fmt::format("must be a list of 3 numbers, has {}", array->size()));
+        fail_at(node, key, fmt::format("must be a list of {} numbers, is {}", count, kind_of(node)));
+    if (array->size() != count) {
+        fail_at(node, key, fmt::format("must be a list of {} numbers, has {}", count, array->size()));
     }
     return *array;
+}
+
+template <class Vector>
+void TableReader::read_numbers(const char* key, Vector& value) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    const toml::array& array = list_of(static_cast<std::size_t>(Vector::length()), *node, key);
+    for (int i = 0; i < Vector::length(); ++i) {
+        const toml::node& element = array[static_cast<std::size_t>(i)];
+        const std::string place = fmt::format("{}[{}]", key, i);
+        if constexpr (std::is_integral_v<typename Vector::value_type>) {
+            value[i] = whole_number(element, place);
+        } else {
+            value[i] = number(element, place);
+        }
+    }
 }
 
 void TableReader::read(const char* key, double& value) {
@@ -191,20 +208,16 @@ void TableReader::read(const char* key, std::string& value) {
     value = text->get();
 }
 
+void TableReader::read(const char* key, glm::dvec2& value) {
+    read_numbers(key, value);
+}
+
 void TableReader::read(const char* key, glm::dvec3& value) {
-    const toml::node* node = find(key);
-    if (node == nullptr) return;
-    const toml::array& array = three(*node, key);
-    for (int i = 0; i < 3; ++i)
-        value[i] = number(array[static_cast<std::size_t>(i)], fmt::format("{}[{}]", key, i));
+    read_numbers(key, value);
 }
 
 void TableReader::read(const char* key, glm::ivec3& value) {
-    const toml::node* node = find(key);
-    if (node == nullptr) return;
-    const toml::array& array = three(*node, key);
-    for (int i = 0; i < 3; ++i)
-        value[i] = whole_number(array[static_cast<std::size_t>(i)], fmt::format("{}[{}]", key, i));
+    read_numbers(key, value);
 }
 
 void TableReader::read_direction(const char* key, glm::dvec3& value) {

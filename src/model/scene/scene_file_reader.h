@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <optional>
@@ -60,6 +61,7 @@ public:
     void read(const char* key, bool& value);
     void read(const char* key, std::optional<bool>& value);
     void read(const char* key, std::string& value);
+    void read(const char* key, glm::dvec2& value);
     void read(const char* key, glm::dvec3& value);
     void read(const char* key, glm::ivec3& value);
     /// A direction of any length, made unit where that can be.
@@ -114,7 +116,9 @@ private:
     [[noreturn]] void fail_at(const toml::node& node, std::string_view key, const std::string& problem) const;
     double number(const toml::node& node, std::string_view key) const;
     int whole_number(const toml::node& node, std::string_view key) const;
-    const toml::array& three(const toml::node& node, const char* key) const;
+    const toml::array& list_of(std::size_t count, const toml::node& node, const char* key) const;
+    template <class Vector>
+    void read_numbers(const char* key, Vector& value);
 
     const toml::table* table_;
     std::string path_;

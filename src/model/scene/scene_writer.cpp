@@ -99,6 +99,14 @@ Table table_of(const Keyframe& keyframe) {
         .add_unless(usual.scale, "scale", keyframe.scale);
 }
 
+Table table_of(const MotorKeyframe& keyframe) {
+    return Table()
+        .add("time", keyframe.time)
+        .add("speed", keyframe.speed)
+        .add("position", keyframe.position)
+        .add("force", keyframe.force);
+}
+
 // [{ ... }, { ... }]
 template <class Item>
 std::string list_of_tables(const std::vector<Item>& items) {
@@ -224,6 +232,24 @@ Table table_of(const ColliderDescription& collider, const std::filesystem::path&
         .add_unless(usual.surface_velocity, "surface_velocity", collider.surface_velocity);
 }
 
+Table table_of(const AttachedUniversal& universal) {
+    return Table().add("point", universal.at).add("own", universal.own).add("of_other", universal.of_other);
+}
+
+Table table_of(const JointSpring& spring) {
+    return Table()
+        .add_unless(0.0, "stiffness", spring.stiffness)
+        .add_unless(0.0, "damping", spring.damping)
+        .add("rest", spring.rest);
+}
+
+Table table_of(const JointMotor& motor) {
+    Table table;
+    table.add("speed", motor.speed).add("position", motor.position).add("force", motor.force);
+    if (!motor.keyframes.empty()) table.add_text("keyframes", list_of_tables(motor.keyframes));
+    return table;
+}
+
 Table table_of(const AttachmentDescription& attachment) {
     Table table;
     if (!attachment.name.empty()) table.add("name", attachment.name);
@@ -234,8 +260,18 @@ Table table_of(const AttachmentDescription& attachment) {
     if (const auto* point = std::get_if<AttachedPoint>(&attachment.where)) table.add("point", point->at);
     if (const auto* line = std::get_if<AttachedLine>(&attachment.where))
         table.add_text("line", list_of_points(line->from, line->to));
-    return table.add_unless(0.0, "compliance", attachment.compliance)
-        .add("break_force", attachment.break_force);
+    if (const auto* rail = std::get_if<AttachedRail>(&attachment.where))
+        table.add_text("rail", list_of_points(rail->from, rail->to));
+    if (const auto* universal = std::get_if<AttachedUniversal>(&attachment.where))
+        table.add_text("universal", table_of(*universal).in_line());
+    if (const auto* distance = std::get_if<AttachedDistance>(&attachment.where))
+        table.add_text("distance", list_of_points(distance->from, distance->to));
+    table.add_unless(0.0, "compliance", attachment.compliance)
+        .add("break_force", attachment.break_force)
+        .add("limits", attachment.limits);
+    if (attachment.spring) table.add_text("spring", table_of(*attachment.spring).in_line());
+    if (attachment.motor) table.add_text("motor", table_of(*attachment.motor).in_line());
+    return table;
 }
 
 }  // namespace

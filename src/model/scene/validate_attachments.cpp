@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <glm/geometric.hpp>
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "model/scene/names.h"
 #include "model/scene/validate_bodies.h"
+#include "model/scene/validate_joints.h"
 
 namespace gelatin {
 namespace {
@@ -26,7 +25,7 @@ std::string those_there(const std::vector<std::string>& names) {
 class AttachmentCheck {
 public:
     AttachmentCheck(const ValueChecks& checks, const Scene& scene) : checks_(checks), scene_(scene) {
-        for (const ObjectDescription& object : scene.objects) objects_.insert(object.name);
+        for (const ObjectDescription& object : scene.objects) objects_.emplace(object.name, &object);
         for (const ColliderDescription& collider : scene.colliders)
             if (!collider.name.empty()) ++colliders_[collider.name];
     }
@@ -38,6 +37,7 @@ public:
         check_object(field / "object", attachment.object);
         if (!attachment.to.empty()) check_to(field / "to", attachment);
         check_where(field, attachment);
+        check_joint(checks_, field, attachment, deformable_side(attachment));
         checks_.check(field / "compliance", attachment.compliance, kNotNegative);
         checks_.check(field / "break_force", attachment.break_force, kPositive);
     }
@@ -72,21 +72,18 @@ private:
             check_region(checks_, field / "region", *region);
         if (const auto* point = std::get_if<AttachedPoint>(&attachment.where))
             checks_.check(field / "point", point->at);
-        if (const auto* line = std::get_if<AttachedLine>(&attachment.where))
-            check_line(field / "line", *line);
         if (std::holds_alternative<std::monostate>(attachment.where) && attachment.to.empty())
-            checks_.fail(field, "", "needs \"to\", or a region, a point or a line");
+            checks_.fail(field, "",
+                         "needs \"to\", or one of region, point, line, rail, universal and distance");
     }
 
-    void check_line(const FieldPath& field, const AttachedLine& line) const {
-        const auto fail = [&](const std::string& problem) {
-            checks_.fail(field, fmt::format("[{}, {}]", text_of(line.from), text_of(line.to)), problem);
-        };
-        for (int axis = 0; axis < 3; ++axis) {
-            if (problem_of(line.from[axis], kAnyNumber) || problem_of(line.to[axis], kAnyNumber))
-                fail(three_numbers_each("points"));
+    // The name of the first side that is one; empty: none is.
+    std::string_view deformable_side(const AttachmentDescription& attachment) const {
+        for (const std::string* name : {&attachment.object, &attachment.to}) {
+            const auto object = objects_.find(*name);
+            if (object != objects_.end() && !object->second->rigid) return object->first;
         }
-        if (problem_of(glm::distance(line.from, line.to), kPositive)) fail("must be two different points");
+        return {};
     }
 
     // All that an attachment of `object` may be to.
@@ -103,7 +100,7 @@ private:
 
     const ValueChecks& checks_;
     const Scene& scene_;
-    std::unordered_set<std::string_view> objects_;
+    std::unordered_map<std::string_view, const ObjectDescription*> objects_;
     std::unordered_map<std::string_view, int> colliders_;  // how many have this name
 };
 

@@ -39,6 +39,9 @@ std::string text_of(int value) {
 std::string text_of(bool value) {
     return value ? "true" : "false";
 }
+std::string text_of(const glm::dvec2& v) {
+    return fmt::format("[{}, {}]", v.x, v.y);
+}
 std::string text_of(const glm::dvec3& v) {
     return list_of(v);
 }

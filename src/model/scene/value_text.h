@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@ namespace gelatin {
 std::string text_of(double value);
 std::string text_of(int value);
 std::string text_of(bool value);
+std::string text_of(const glm::dvec2& v);
 std::string text_of(const glm::dvec3& v);
 std::string text_of(const glm::ivec3& v);
 std::string text_of(std::string_view text);  ///< quoted

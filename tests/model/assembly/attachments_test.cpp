@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
 #include <numeric>
 #include <set>
 
@@ -157,6 +160,184 @@ TEST(MakeAttachment, TiesToColliders) {
     EXPECT_EQ(floor.other, kNoNode);
     EXPECT_EQ(floor.plane, 0u);
     EXPECT_FALSE(floor.ties.empty());
+}
+
+// The same with two rigid cubes in the place of both.
+Scene rigid_cubes() {
+    Scene scene = cubes();
+    for (ObjectDescription& object : scene.objects) {
+        object.mesher = {};
+        object.rigid.emplace();
+    }
+    return scene;
+}
+
+// Of the joint, when the object's nodes are where `place` says of where they are at the start.
+double coordinate_at(const Scene& scene, const Attachment& made,
+                     const std::function<glm::dvec3(const glm::dvec3&)>& place) {
+    const Model model = build_model(scene);
+    std::vector<glm::dvec4> positions(model.positions.begin(), model.positions.end());
+    const Range& own = model.objects[made.object].nodes;
+    for (std::uint32_t n = own.first; n < own.end(); ++n)
+        positions[n] = glm::dvec4(place(glm::dvec3(positions[n])), positions[n].w);
+    const std::span<const glm::dvec4> at = positions;
+    return coordinate(made.joint, frame_of(made.joint.own, at), frame_of(made.joint.other, at));
+}
+
+glm::dvec3 itself(const glm::dvec3& p) {
+    return p;
+}
+
+// Both frames are the same at the start, with z along the line.
+void expect_same_frames(const Model& model, const Joint& joint, const Frame& expected) {
+    const std::span<const glm::vec4> at = model.positions;
+    for (const CarriedFrame* carried : {&joint.own, &joint.other}) {
+        const Frame frame = frame_of(*carried, at);
+        EXPECT_LT(glm::distance(frame.point, expected.point), 1e-6);
+        EXPECT_LT(glm::distance(frame.axes[2], expected.axes[2]), 1e-6);
+        EXPECT_LT(glm::distance(frame.axes[0], frame_of(joint.other, at).axes[0]), 1e-6);
+        EXPECT_NEAR(glm::determinant(frame.axes), 1.0, 1e-6);
+    }
+}
+
+constexpr double kFloat = 1e-5;  // what is left of frames that float nodes carry
+
+TEST(MakeAttachment, AHingeOfRigidSidesHasAnAngle) {
+    const Scene scene = rigid_cubes();
+    const Model model = build_model(scene);
+    const glm::dvec3 from(0.102, 0.1, -0.1), to(0.102, 0.1, 0.1);
+    for (const char* other : {"b", "moving", "resting", "floor", ""}) {
+        const Attachment made = make(scene, {.object = "a", .to = other, .where = AttachedLine{from, to}});
+        EXPECT_EQ(made.joint.kind, Joint::Kind::hinge);
+        EXPECT_TRUE(made.joint.has_coordinate());
+        EXPECT_GE(made.ties.size(), 2u);
+        expect_same_frames(model, made.joint, {from, {{}, {}, {0, 0, 1}}});
+        EXPECT_NEAR(coordinate_at(scene, made, itself), 0.0, kFloat) << other;
+        const auto turned = [&](double degrees) {
+            const double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
+            return [=](const glm::dvec3& p) {
+                const glm::dvec3 arm = p - from;
+                return from + glm::dvec3(c * arm.x - s * arm.y, s * arm.x + c * arm.y, arm.z);
+            };
+        };
+        EXPECT_NEAR(coordinate_at(scene, made, turned(30.0)), glm::radians(30.0), kFloat);
+        EXPECT_NEAR(coordinate_at(scene, made, turned(-170.0)), glm::radians(-170.0), kFloat);
+    }
+    EXPECT_EQ(make(cubes(), {.object = "a", .to = "b", .where = AttachedLine{from, to}}).joint.kind,
+              Joint::Kind::none)
+        << "of deformable sides";
+}
+
+TEST(MakeAttachment, ASliderHasALength) {
+    const Scene scene = rigid_cubes();
+    const Model model = build_model(scene);
+    const glm::dvec3 from(0.0, 0.1, 0.0), to(3.0, 4.1, 0.0);
+    const Attachment made = make(scene, {.object = "a", .to = "b", .where = AttachedRail{from, to}});
+    EXPECT_EQ(made.joint.kind, Joint::Kind::slider);
+    EXPECT_TRUE(made.ties.empty());
+    expect_same_frames(model, made.joint, {from, {{}, {}, {0.6, 0.8, 0.0}}});
+    EXPECT_NEAR(coordinate_at(scene, made, itself), 0.0, kFloat);
+    EXPECT_NEAR(coordinate_at(scene, made, [](const glm::dvec3& p) { return p + glm::dvec3(0.3, 0.4, 9.0); }),
+                0.5, kFloat);
+}
+
+TEST(MakeAttachment, AUniversalJointHasTwoAxes) {
+    const Scene scene = rigid_cubes();
+    const Model model = build_model(scene);
+    const glm::dvec3 at(0.1, 0.2, 0.3);
+    const Attachment made = make(
+        scene, {.object = "a", .to = "b", .where = AttachedUniversal{at, {0.0, 0.0, 2.0}, {0.0, 3.0, 0.0}}});
+    EXPECT_EQ(made.joint.kind, Joint::Kind::universal);
+    EXPECT_FALSE(made.joint.has_coordinate());
+    EXPECT_EQ(made.ties.size(), 1u);
+    expect_same_frames(model, made.joint, {at, {{}, {}, {0, 1, 0}}});
+    const std::span<const glm::vec4> positions = model.positions;
+    EXPECT_LT(glm::distance(frame_of(made.joint.own, positions).axes[0], glm::dvec3(0, 0, 1)), 1e-6);
+}
+
+// Of deformable bodies, too.
+TEST(MakeAttachment, ADistanceIsBetweenTwoPoints) {
+    const glm::dvec3 from(0.0, 0.15, 0.0), to(0.204, 0.15, 0.1);
+    for (const Scene& scene : {cubes(), rigid_cubes()}) {
+        for (const char* other : {"b", ""}) {
+            const Attachment made =
+                make(scene, {.object = "a", .to = other, .where = AttachedDistance{from, to}});
+            EXPECT_EQ(made.joint.kind, Joint::Kind::distance);
+            EXPECT_TRUE(made.ties.empty());
+            EXPECT_TRUE(made.joint.is_kept);
+            EXPECT_DOUBLE_EQ(made.joint.rest, glm::distance(from, to));
+            EXPECT_NEAR(coordinate_at(scene, made, itself), glm::distance(from, to), kFloat);
+            const glm::dvec3 apart(0.0, 1.0, 0.0);
+            EXPECT_NEAR(coordinate_at(scene, made, [&](const glm::dvec3& p) { return p + apart; }),
+                        glm::distance(from + apart, to), kFloat);
+        }
+    }
+    EXPECT_TRUE(error_of(cubes(), {.object = "a", .to = "b", .where = AttachedDistance{from, {0, 9, 0}}})
+                    .starts_with("attachment[0].distance: [0, 9, 0] is farther than "));
+}
+
+TEST(MakeAttachment, AnglesOfTheSceneAreDegrees) {
+    const Scene scene = rigid_cubes();
+    const AttachmentDescription hinge{.object = "a",
+                                      .where = AttachedLine{{0, 0.1, 0}, {0, 0.1, 1}},
+                                      .limits = glm::dvec2(-90, 180),
+                                      .spring = JointSpring{5.0, 0.5, 45.0}};
+    const Joint angle = make(scene, hinge).joint;
+    EXPECT_LT(glm::distance(angle.limits, glm::radians(glm::dvec2(-90, 180))), 1e-12);
+    EXPECT_EQ(angle.stiffness, 5.0);
+    EXPECT_EQ(angle.damping, 0.5);
+    EXPECT_DOUBLE_EQ(angle.rest, glm::radians(45.0));
+
+    AttachmentDescription slider = hinge;
+    slider.where = AttachedRail{{0, 0.1, 0}, {0, 0.1, 1}};
+    const Joint length = make(scene, slider).joint;
+    EXPECT_EQ(length.limits, glm::dvec2(-90, 180));
+    EXPECT_EQ(length.rest, 45.0);
+    slider.limits = {};
+    slider.spring = {};
+    EXPECT_EQ(make(scene, slider).joint.limits, glm::dvec2(-Joint::kNoLimit, Joint::kNoLimit));
+
+    const Joint rope = make(scene, {.object = "a",
+                                    .where = AttachedDistance{{0, 0.1, 0}, {0, 2.1, 0}},
+                                    .limits = glm::dvec2(0, 2),
+                                    .spring = JointSpring{5.0}})
+                           .joint;
+    EXPECT_FALSE(rope.is_kept);
+    EXPECT_DOUBLE_EQ(rope.rest, 2.0);
+    EXPECT_EQ(rope.limits, glm::dvec2(0, 2));
+}
+
+TEST(MotorAt, FollowsKeyframes) {
+    const AttachmentDescription slider{.object = "a", .where = AttachedRail{}};
+    const JointMotor motor{.speed = 2.0, .keyframes = {{1.0, {}, 5.0}, {2.0, 3.0, {}, 7.0}}};
+    const MotorTarget start = motor_at(slider, motor, 0.999), middle = motor_at(slider, motor, 1.0),
+                      end = motor_at(slider, motor, 50.0);
+    EXPECT_TRUE(start.acts);
+    EXPECT_EQ(start.speed, 2.0);
+    EXPECT_FALSE(start.position);
+    EXPECT_EQ(start.force, Joint::kNoLimit);
+    EXPECT_EQ(middle.speed, 2.0);
+    EXPECT_EQ(middle.position, 5.0);
+    EXPECT_EQ(end.speed, 3.0);
+    EXPECT_EQ(end.position, 5.0);
+    EXPECT_EQ(end.force, 7.0);
+}
+
+TEST(MotorAt, TurnsDegreesIntoRadians) {
+    const AttachmentDescription hinge{.object = "a", .where = AttachedLine{}};
+    const MotorTarget target = motor_at(hinge, {.speed = 180.0, .position = -90.0, .force = 3.0}, 0.0);
+    EXPECT_DOUBLE_EQ(target.speed, glm::radians(180.0));
+    EXPECT_DOUBLE_EQ(*target.position, glm::radians(-90.0));
+    EXPECT_EQ(target.force, 3.0);
+    EXPECT_EQ(motor_at(hinge, {.position = 1.0}, 0.0).speed, Joint::kNoLimit);
+}
+
+TEST(JoinedBodies, AreThoseOfJointsButDistances) {
+    Scene scene = rigid_cubes();
+    scene.attachments = {{.object = "b", .to = "a", .where = AttachedRail{{0, 0, 0}, {0, 1, 0}}}};
+    EXPECT_TRUE(are_joined(joined_bodies(scene, build_model(scene)), 0, 1));
+    scene.attachments[0].where = AttachedDistance{{0, 0, 0}, {0, 1, 0}};
+    EXPECT_TRUE(joined_bodies(scene, build_model(scene)).empty());
 }
 
 TEST(MakeAttachment, SaysWhatIsWrong) {

@@ -272,6 +272,44 @@ to = "ball"
     EXPECT_EQ(copy.substr(copy.find("[[attachment]]")), kAttachments);
 }
 
+TEST(SceneWriter, WritesJoints) {
+    constexpr const char* kJoints = R"([[attachment]]
+name = "door"
+object = "ball"
+to = "beam"
+line = [[0, 1, -1], [0, 1, 1]]
+compliance = 1e-05
+limits = [-10, 90.5]
+spring = { stiffness = 20, damping = 0.5, rest = 45 }
+motor = { speed = 60, position = 30, force = 100, keyframes = [{ time = 1, speed = 30 }, { time = 2.5, position = 0, force = 0 }] }
+
+[[attachment]]
+object = "ball"
+rail = [[0, 1, -1], [0, 1, 1]]
+spring = { damping = 2 }
+motor = { speed = -0.5 }
+
+[[attachment]]
+object = "ball"
+to = "beam"
+universal = { point = [0, 1.5, 0], own = [1, 0, 0], of_other = [0, 0, 2] }
+
+[[attachment]]
+object = "ball"
+to = "beam"
+distance = [[0, 1, 0], [0, 3, 0]]
+limits = [0, 2]
+)";
+    const TemporaryFolder folder;
+    write_file(folder.path() / "scene.toml",
+               "[[material]]\nname = 'm'\n[[rigid]]\nname = 'ball'\nshape = {sphere = 1}\n"
+               "[[rigid]]\nname = 'beam'\nshape = {sphere = 1}\n" +
+                   std::string(kJoints));
+    save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
+    const std::string copy = read_file(folder.path() / "copy.toml");
+    EXPECT_EQ(copy.substr(copy.find("[[attachment]]")), kJoints);
+}
+
 TEST(SceneWriter, WritesHowMaterialsPress) {
     constexpr const char* kText = R"([[collision.pair]]
 materials = ["ice", "rubber"]
