@@ -1,6 +1,7 @@
 #include "cpu/implicit/attachment_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -168,7 +169,7 @@ void AttachmentRows<Real>::add(const Start& start, std::vector<ContactRow<Real>>
         const JointRows<Real> joint(attachment, start.positions, start.expected);
         axes_[a] = static_cast<Real>(joint.scale()) * joint.axis();
         joint.add(
-            start.motors.empty() ? MotorTarget() : start.motors[a], static_cast<Real>(forces_[a].motor_held),
+            start.motors.empty() ? MotorTarget() : start.motors[a], forces_[a].last_motor,
             static_cast<double>(start.step), blank,
             [&](const ContactRow<Real>& row) { return stiffness_of(row, start.compliances, compliance); },
             rows);
@@ -177,10 +178,10 @@ void AttachmentRows<Real>::add(const Start& start, std::vector<ContactRow<Real>>
 
 template <class Real>
 void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> slips,
-                                std::span<const std::uint8_t> asleep) {
+                                double step, std::span<const std::uint8_t> asleep) {
     for (std::size_t a = 0; a < attachments_.size(); ++a)
         if (!is_broken(a) && asleep[attachments_[a].object] == 0)
-            forces_[a] = {.is_broken = forces_[a].is_broken, .motor_held = forces_[a].motor_held};
+            forces_[a] = {.is_broken = forces_[a].is_broken, .last_motor = forces_[a].last_motor};
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const ContactRow<Real>& row = rows[r];
         if (!row.is_tie()) continue;
@@ -188,13 +189,19 @@ void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows, std::spa
         if (!row.is_couple) forces_[row.attachment].force += glm::dvec3(force);
         if (row.is_along)
             forces_[row.attachment].effort += static_cast<double>(glm::dot(force, axes_[row.attachment]));
-        if (row.is_motor) forces_[row.attachment].motor = -static_cast<double>(glm::dot(force, row.normal));
+        if (!row.is_motor) continue;
+        auto& [held, speed, acceleration] = forces_[row.attachment].motor;
+        const MotorMemory& last = forces_[row.attachment].last_motor;
+        held = -static_cast<double>(glm::dot(force, row.normal));
+        speed = static_cast<double>(glm::dot(slips[r], row.normal)) / step;
+        const bool is_enough = std::abs(held) < 0.999 * static_cast<double>(row.limit);
+        acceleration = is_enough ? last.acceleration : std::abs(speed - last.speed) / step;
     }
 }
 
 template <class Real>
 void AttachmentRows<Real>::end_step() {
-    for (State& state : forces_) state.motor_held = state.motor;
+    for (State& state : forces_) state.last_motor = state.motor;
     for (std::size_t a = 0; a < attachments_.size(); ++a)
         if (glm::length(forces_[a].force) > static_cast<double>(attachments_[a].break_force))
             forces_[a].is_broken = 1;

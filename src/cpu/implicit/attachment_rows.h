@@ -7,6 +7,7 @@
 #include "core/archive.h"
 #include "cpu/contact/contact_pair.h"
 #include "cpu/implicit/contact_row.h"
+#include "cpu/implicit/joint_rows.h"
 #include "cpu/nodes.h"
 #include "model/drive/attachment.h"
 #include "model/model.h"
@@ -47,8 +48,8 @@ public:
     };
     /// Adds those that are not broken, but for bodies asleep.
     void add(const Start& start, std::vector<ContactRow<Real>>& rows);
-    /// What they exert at the end of a step. @param slips of rows, s [m]
-    void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> slips,
+    /// What they exert at the end of a step. @param slips of rows, s [m] @param step its length [s]
+    void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> slips, double step,
               std::span<const std::uint8_t> asleep);
     /// The step was made: breaks those that exert more than they can.
     void end_step();
@@ -58,8 +59,7 @@ private:
         glm::dvec3 force{0.0};  // on its object [N]
         double effort = 0.0;    // [N m] or [N]
         std::uint64_t is_broken = 0;
-        double motor = 0.0;       // what its row holds along its axis [N]
-        double motor_held = 0.0;  // the same when the last step ended
+        MotorMemory last_motor, motor = {};
     };
     // That a node is tied to an object, or to a plane: these have the numbers after objects.
     struct Tied {

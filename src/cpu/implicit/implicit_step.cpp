@@ -505,7 +505,7 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
                                 Nodes<Real>& current) {
     Field& d = system_.displacements;
     rows_.note(system_.rows, d, asleep_);
-    attachments_.note(system_.rows, system_.slips(), asleep_);
+    attachments_.note(system_.rows, system_.slips(), static_cast<double>(step_), asleep_);
     Field forces(d.size(), Vec3<Real>(0));  // of all but elements and gravity
     for (std::size_t n = 0; n < input.load_forces.size(); ++n) forces[n] = Vec3<Real>(input.load_forces[n]);
     std::erase_if(acting_, [&](const Acting& acting) { return !is_asleep(acting.row); });

@@ -42,7 +42,7 @@ JointRows<Real>::JointRows(const Attachment& attachment, std::span<const Vec4<Re
     find_coordinate();
 }
 
-// What the row of the coordinate ties. At the expected end both sides of it are together, but for a distance.
+// What the row of the coordinate ties. Of a hinge both sides of it are together at the expected end.
 template <class Real>
 void JointRows<Real>::find_coordinate() {
     const double lever = joint_.lever;
@@ -54,9 +54,10 @@ void JointRows<Real>::find_coordinate() {
             offset_ = lever * end_;
             break;
         case Joint::Kind::slider:
-            sides_ = {{1.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, end_}};
+            // Near their centres: at points far from them what is pushed along z would seem to yield.
+            sides_ = {{1.0, 0.0, 0.0, joint_.own_center}, {1.0, 0.0, 0.0, joint_.other_center}};
             axis_ = other_end_.axes[2];
-            offset_ = end_;
+            offset_ = joint_.other_center - joint_.own_center;
             break;
         case Joint::Kind::universal: {
             const glm::dvec3 x = lever * own_end_.axes[0] * other_end_.axes;
@@ -99,7 +100,7 @@ ContactRow<Real> JointRows<Real>::row_of(const ContactRow<Real>& blank, const Si
 }
 
 template <class Real>
-void JointRows<Real>::add(const MotorTarget& motor, Real motor_hold, double step,
+void JointRows<Real>::add(const MotorTarget& motor, const MotorMemory& memory, double step,
                           const ContactRow<Real>& blank,
                           const std::function<Real(const ContactRow<Real>&)>& stiffness_of,
                           std::vector<ContactRow<Real>>& rows) const {
@@ -131,11 +132,18 @@ void JointRows<Real>::add(const MotorTarget& motor, Real motor_hold, double step
     if (joint_.damping > 0.0) drive(joint_.damping / (unit * unit * step), unit * start_, kAny);
     if (motor.acts) {
         double speed = motor.speed;
-        if (motor.position)
-            speed = std::clamp((*motor.position - start_) / std::max(step, tuning::kServo), -speed, speed);
-        drive(rigid * tuning::kMotor / tuning::kRigidTied, unit * (start_ + speed * step),
+        if (motor.position) {
+            // So that half of its force can stop it there.
+            const double left = *motor.position - start_;
+            if (memory.acceleration > 0.0)
+                speed = std::min(speed, std::sqrt(memory.acceleration / unit * std::abs(left)));
+            speed = std::clamp(left / std::max(step, tuning::kServo), -speed, speed);
+        }
+        // What rigid bodies' rows are stiff by is for a part of 1/240 s.
+        const double part = tuning::kFrame / tuning::kParts[0] / step;
+        drive(rigid * part * part * tuning::kMotor / tuning::kRigidTied, unit * (start_ + speed * step),
               std::min(motor.force / unit, kAny));
-        rows.back().hold += motor_hold * rows.back().normal;
+        rows.back().hold += static_cast<Real>(memory.held) * rows.back().normal;
         rows.back().is_motor = true;
     }
     if (joint_.kind != Joint::Kind::slider) return;

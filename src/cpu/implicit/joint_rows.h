@@ -10,6 +10,13 @@
 
 namespace gelatin::cpu {
 
+/// What a motor did in the last step, in units of its row.
+struct MotorMemory {
+    double held = 0.0;          ///< along the axis, reversed [N]
+    double speed = 0.0;         ///< [m/s]
+    double acceleration = 0.0;  ///< when its force was too small last; 0: it never was [m/s^2]
+};
+
 /// The rows of a joint in a step (docs/rigid-bodies.md#joints). Directions and angles change within it: rows
 /// are linear about where frames are expected at its end.
 template <class Real>
@@ -20,10 +27,9 @@ public:
               std::span<const Vec3<Real>> expected);
 
     /// Adds all.
-    /// @param motor_hold what the motor held along the axis, reversed, when the last step ended [N]
     /// @param blank with what all rows of the attachment have
     /// @param stiffness_of a row by the nodes it has: of what does not yield; 0: nothing of it is free
-    void add(const MotorTarget& motor, Real motor_hold, double step, const ContactRow<Real>& blank,
+    void add(const MotorTarget& motor, const MotorMemory& memory, double step, const ContactRow<Real>& blank,
              const std::function<Real(const ContactRow<Real>&)>& stiffness_of,
              std::vector<ContactRow<Real>>& rows) const;
     /// Along which the coordinate grows.

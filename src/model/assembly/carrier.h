@@ -39,7 +39,8 @@ public:
     CarriedFrame carry_point(const glm::dvec3& point) const;
     /// @pre is_rigid() and can_carry()
     CarriedFrame carry_frame(const Frame& frame) const;
-    /// Of the four nodes, from their mean [m].
+    /// The mean of the four nodes, and how far they are from it [m].
+    glm::dvec3 center() const;
     double size() const;
 
 private:
