@@ -24,7 +24,8 @@ struct Extent {
 }  // namespace
 
 // By sorting the faces along x.
-std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<double>> positions, Overlaps which) {
+std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<double>> positions, Overlaps which,
+                           const JoinedBodies& joined) {
     const auto triangle = [&](std::uint32_t f) {
         const Face& face = model.faces[f];
         return cpu::Triangle<double>{glm::dvec3(positions[face.a]), glm::dvec3(positions[face.b]),
@@ -54,6 +55,7 @@ std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<double>
             const std::uint32_t object = model.faces[a.face].object, other = model.faces[b.face].object;
             if (!model.is_body(object) && !model.is_body(other)) continue;
             if (object == other && which == Overlaps::between) continue;
+            if (are_joined(joined, object, other)) continue;
             if (glm::any(glm::greaterThan(a.low, b.high)) || glm::any(glm::greaterThan(b.low, a.high)))
                 continue;
             if (object != other || corners_in_common(model.faces[a.face], model.faces[b.face]) == 0) {
@@ -66,9 +68,10 @@ std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<double>
     return count;
 }
 
-std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<float>> positions, Overlaps which) {
+std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<float>> positions, Overlaps which,
+                           const JoinedBodies& joined) {
     const std::vector<cpu::Vec4<double>> exact(positions.begin(), positions.end());
-    return count_overlaps(model, std::span<const cpu::Vec4<double>>(exact), which);
+    return count_overlaps(model, std::span<const cpu::Vec4<double>>(exact), which, joined);
 }
 
 }  // namespace gelatin::test

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "cpu/nodes.h"
+#include "model/drive/attachment.h"
 #include "model/model.h"
 
 namespace gelatin::test {
@@ -15,10 +16,11 @@ enum class Overlaps {
     between,  ///< of different bodies, or of a body and a collider
 };
 
-/// Pairs of faces, in exact arithmetic (tests/exact) and independent of what the solvers use to find them.
+/// Pairs of faces, but for those of rigid bodies that are joined, in exact arithmetic (tests/exact) and
+/// independent of what the solvers use to find them.
 std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<double>> positions,
-                           Overlaps which = Overlaps::all);
+                           Overlaps which = Overlaps::all, const JoinedBodies& joined = {});
 std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<float>> positions,
-                           Overlaps which = Overlaps::all);
+                           Overlaps which = Overlaps::all, const JoinedBodies& joined = {});
 
 }  // namespace gelatin::test

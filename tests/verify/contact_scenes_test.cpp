@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gelatin/simulator.h"
+#include "model/assembly/attachments.h"
 #include "model/model.h"
 #include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
@@ -39,7 +40,9 @@ public:
             const test::Overlaps which = simulator_.scene().collision.self_collision.value_or(true)
                                              ? test::Overlaps::all
                                              : test::Overlaps::between;
-            ASSERT_EQ(test::count_overlaps(model_of(simulator_), positions, which), 0u)
+            const Model& model = model_of(simulator_);
+            ASSERT_EQ(test::count_overlaps(model, positions, which, joined_bodies(simulator_.scene(), model)),
+                      0u)
                 << "frame " << simulator_.frame();
         }
     }
@@ -335,6 +338,49 @@ TEST(ContactScenesHeavy, ABallOnAChainKnocksDownColumns) {
     }
     for (std::size_t column = kBall + 1; column <= kBall + 9; ++column)
         EXPECT_LT(scene.center(column).y, 0.35) << column;
+}
+
+// Objects: a ball, a carriage, a palm, two fingers.
+TEST(ContactScenesHeavy, AGripperWithMotorsCarriesABall) {
+    ContactScene scene("grab.toml");
+    for (int frame = 10; frame <= 480; frame += 10) {
+        scene.advance_to(frame);
+        const glm::dvec3 ball = scene.center(0);
+        if (frame == 80) {
+            EXPECT_NEAR(ball.y, 0.23, 0.02);
+        }
+        if (frame >= 180 && frame <= 360) {
+            EXPECT_GT(ball.y, 0.6) << frame;
+        }
+        if (frame == 360) {
+            EXPECT_NEAR(ball.x, 1.0, 0.15);
+        }
+        if (frame <= 360) {
+            EXPECT_LT(std::abs(ball.z), 0.05) << frame;
+        }
+    }
+    EXPECT_NEAR(scene.center(1).x, 1.0, 1e-3);
+    EXPECT_NEAR(scene.center(2).y, 0.85 + 0.5, 1e-3);
+    EXPECT_LT(scene.center(0).y, 0.35);
+}
+
+// Objects: a body, then of four wheels a carrier, a rim and a tyre.
+TEST(ContactScenesHeavy, ACarDrivesOverALogAndUpAKerb) {
+    ContactScene scene("car.toml");
+    for (int frame = 10; frame <= 300; frame += 10) {
+        scene.advance_to(frame);
+        for (std::size_t wheel = 0; wheel < 4; ++wheel) {
+            const glm::dvec3 rim = scene.center(2 + 3 * wheel);
+            EXPECT_NEAR(glm::distance(scene.center(1 + 3 * wheel), rim), 0.09, 2e-3) << frame;
+            EXPECT_LT(glm::distance(scene.center(3 + 3 * wheel), rim), 0.03) << frame;
+        }
+        EXPECT_LT(std::abs(scene.center(0).z), 0.1) << frame;
+        if (frame == 30) {
+            EXPECT_NEAR(scene.center(0).y, 0.45, 0.04);
+        }
+    }
+    EXPECT_GT(scene.center(0).x, 2.3);
+    EXPECT_NEAR(scene.center(0).y, 0.1 + 0.45, 0.04);  // on the kerb
 }
 
 // Objects: a top that leans, one with a level axis on a post, a slow one.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
@@ -167,6 +168,41 @@ TEST(Joints, MotorsGoToPositions) {
     EXPECT_NEAR(run.joint(0).position, 0.0, glm::radians(0.1));
 }
 
+// With so little force that it has to brake early.
+TEST(Joints, MotorsDoNotOvershoot) {
+    for (const double force : {0.1, 1.0, 10.0}) {
+        Scene scene = box_on_rail({1.0, 0.0, 0.0});
+        scene.attachments[0].motor = JointMotor{.speed = 0.8, .position = 0.5, .force = force};
+        MeasuredRun run(scene);
+        double most = 0.0;
+        for (int frame = 0; frame < 480; ++frame) {
+            run.advance(1.0 / 60.0);
+            most = std::max(most, run.joint(0).position);
+        }
+        EXPECT_LT(most, 0.505) << force;
+        EXPECT_NEAR(run.joint(0).position, 0.5, 1e-3) << force;
+        EXPECT_LT(run.fastest(0), 1e-3) << force;
+    }
+}
+
+// A heavy body hangs on a light one, whose motor holds both.
+TEST(Joints, MotorsHoldAThousandTimesTheirMass) {
+    Scene scene = box_on_rail({0.0, 1.0, 0.0}, {0.0, -kGravity, 0.0});
+    scene.objects.push_back(rigid_box("load", {0.5, 0.5, 0.5}, {0.0, -1.0, 0.0}));
+    scene.objects[1].rigid->mass = 1000.0;
+    scene.attachments[0].motor = JointMotor{.speed = 0.5, .position = 0.2};
+    scene.attachments.push_back(
+        {.object = "load", .to = "box", .where = AttachedDistance{{0.0, -0.75, 0.0}, {0.0, 0.0, 0.0}}});
+    MeasuredRun run(scene);
+    for (int frame = 0; frame < 240; ++frame) {
+        run.advance(1.0 / 60.0);
+        ASSERT_NEAR(run.joint(1).position, 0.75, 0.0075) << frame;
+        ASSERT_GT(run.joint(0).position, -0.02) << frame;
+    }
+    EXPECT_NEAR(run.joint(0).position, 0.2, 1e-3);
+    EXPECT_NEAR(run.joint(0).effort, 1001.0 * kGravity, 1e-3 * 1001.0 * kGravity);
+}
+
 // Against a block, with all that it has: at rest, and what it exerts is its torque.
 TEST(Joints, MotorsAtTheirLimitDoNotTremble) {
     Scene scene = bar_on_hinge();
@@ -250,6 +286,70 @@ TEST(Joints, RodsKeepTheirLength) {
         ASSERT_LT(run.energy(), energy + 1e-3 * run.mass(0) * kGravity) << frame;
     }
     EXPECT_GT(run.energy(), energy - 0.02 * run.mass(0) * kGravity * 0.2);
+}
+
+// A soft ball on a rope swings in a circle, and a rope between two soft ones pulls both.
+TEST(Joints, RopesHoldSoftBodies) {
+    Scene scene = rigid_scene();
+    scene.materials[0].youngs_modulus = 1e5;
+    scene.objects = {rigid("upper", SphereShape{0.1, 4}, {0.0, 0.0, 0.0}),
+                     rigid("lower", SphereShape{0.1, 4}, {0.3, -0.2, 0.0})};
+    for (ObjectDescription& object : scene.objects) object.rigid.reset();
+    scene.attachments = {{.object = "upper", .where = AttachedDistance{{0.0, 0.0, 0.0}, {0.0, 0.6, 0.0}}},
+                         {.object = "lower",
+                          .to = "upper",
+                          .where = AttachedDistance{{0.3, -0.2, 0.0}, {0.0, 0.0, 0.0}},
+                          .limits = {{0.0, 0.5}}}};
+    MeasuredRun run(scene);
+    const double energy = run.energy();
+    double least = 1.0;
+    for (int frame = 0; frame < 240; ++frame) {
+        run.advance(1.0 / 60.0);
+        ASSERT_NEAR(run.joint(0).position, 0.6, 0.01) << frame;
+        ASSERT_LT(run.joint(1).position, 0.51) << frame;
+        ASSERT_LT(run.energy(), energy + 0.01 * run.mass(0) * kGravity * 0.5) << frame;
+        least = std::min(least, run.joint(1).position);
+    }
+    EXPECT_LT(least, 0.45);  // it was slack
+}
+
+// What rests with a motor that holds still sleeps, and wakes when it has to move.
+TEST(Joints, SleepUntilAMotorMoves) {
+    Scene scene = bar_on_hinge({0.0, -kGravity, 0.0});
+    add_floor(scene);
+    scene.colliders[0].shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.4};
+    scene.attachments[0].motor = JointMotor{.speed = 0.0, .keyframes = {{.time = 2.0, .speed = 45.0}}};
+    MeasuredRun run(scene);
+    run.advance(1.9);
+    EXPECT_EQ(run.fastest(0), 0.0);
+    EXPECT_NEAR(run.joint(0).effort, 0.5 * kGravity, 0.005 * kGravity);
+    run.advance(1.1);
+    EXPECT_NEAR(run.joint(0).position, kPi / 4.0, 0.02);
+}
+
+TEST(Joints, GoOnFromACheckpoint) {
+    Scene scene = bar_on_hinge({0.0, -kGravity, 0.0});
+    scene.attachments[0].motor = JointMotor{.speed = 45.0, .position = 60.0, .force = 6.0};
+    MeasuredRun run(scene), again(scene);
+    run.advance(0.5);
+    const auto file = std::filesystem::temp_directory_path() / "gelatin_joint_checkpoint";
+    run.simulator().save_checkpoint(file);
+    again.simulator().load_checkpoint(file);
+    std::filesystem::remove(file);
+    run.advance(1.0);
+    again.advance(1.0);
+    const auto positions = run.simulator().positions(), others = again.simulator().positions();
+    EXPECT_TRUE(std::equal(positions.begin(), positions.end(), others.begin(), others.end()));
+    EXPECT_EQ(run.joint(0).effort, again.joint(0).effort);
+}
+
+TEST(Joints, BreakWhereTheyCarryTooMuch) {
+    Scene scene = box_on_rail({1.0, 0.0, 0.0}, {0.0, -kGravity, 0.0});
+    scene.attachments[0].break_force = 0.9 * kGravity;
+    MeasuredRun run(scene);
+    run.advance(0.5);
+    EXPECT_TRUE(run.is_broken(0));
+    EXPECT_LT(run.center(0).y, -1.0);
 }
 
 TEST(Joints, KeepMomenta) {

@@ -49,9 +49,6 @@ inline constexpr double kOfRestGap = 0.5;
 inline constexpr double kTied = 300.0;
 /// And those of rigid bodies, which nothing else yields at.
 inline constexpr double kRigidTied = 1000.0;
-/// Motors resist by so many times what inertia does, for a part of 1/240 s; they need no more, and in single
-/// precision a fast one would tremble.
-inline constexpr double kMotor = 20.0;
 /// Motors cover what is left to their position in this time [s].
 inline constexpr double kServo = kFrame;
 /// Edges of which a neighbour of the face beside them is in the way of the line by a cosine of this press

@@ -193,7 +193,7 @@ void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows, std::spa
         auto& [held, speed, acceleration] = forces_[row.attachment].motor;
         const MotorMemory& last = forces_[row.attachment].last_motor;
         held = -static_cast<double>(glm::dot(force, row.normal));
-        speed = static_cast<double>(glm::dot(slips[r], row.normal)) / step;
+        speed = static_cast<double>(glm::dot(slips[r] + row.target, row.normal)) / step;
         const bool is_enough = std::abs(held) < 0.999 * static_cast<double>(row.limit);
         acceleration = is_enough ? last.acceleration : std::abs(speed - last.speed) / step;
     }

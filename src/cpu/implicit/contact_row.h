@@ -14,7 +14,7 @@
 namespace gelatin::cpu {
 
 /// One contact in a step: two sides whose nearest points move relative to each other by
-///   s = sum_k w_k d_k + turned,
+///   s = sum_k w_k d_k + turned - target,
 /// with d_k the displacements of its nodes since the step began, and weights w_k that are negative on the
 /// first side and positive on the second. A plane, as a first side, has no nodes.
 template <class Real>
@@ -47,6 +47,9 @@ struct ContactRow {
     bool is_couple = false;  ///< weights of each side sum to 0: what holds exerts a moment alone
     bool drives = false;     ///< what holds does work, or takes energy, and keeps none
     bool is_motor = false;   ///< of these
+    /// By which s is less than what is displaced: where a motor wants to be, so that s stays small beside
+    /// how stiff it is [m].
+    Vec3<Real> target{0};
 
     bool is_tie() const { return attachment != kNoNode; }
 
@@ -118,7 +121,7 @@ Vec3<Real> relative(const ContactRow<Real>& row, const Displacements& displaceme
 template <class Real, class Displacements>
 Vec3<Real> slip(const ContactRow<Real>& row, const Displacements& displacements) {
     const Vec3<Real> s = row.turned + relative(row, displacements);
-    return row.is_tie() ? row.held_part(s) : s;
+    return row.is_tie() ? row.held_part(s - row.target) : s;
 }
 
 /// A row's force to first order: constant - stiffness s.

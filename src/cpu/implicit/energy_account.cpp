@@ -129,9 +129,11 @@ double EnergyAccount<Real>::work_on_rows(const Step& step, const ContactRow<Real
     if (moved == Vec3<Real>(0) && !row.drives) return 0.0;
     const Vec3<Real> s = slip<Real>(row, step.displacements), force = row.force(s);
     double work = -static_cast<double>(glm::dot(force, moved));
-    if (row.drives)
+    if (row.drives) {
+        const Vec3<Real> way = s + row.target;
         work += static_cast<double>(
-            std::max({glm::dot(row.force(Vec3<Real>(0)), s), glm::dot(force, s), Real(0)}));
+            std::max({glm::dot(row.force(-row.target), way), glm::dot(force, way), Real(0)}));
+    }
     return work;
 }
 

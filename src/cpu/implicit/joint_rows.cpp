@@ -139,11 +139,12 @@ void JointRows<Real>::add(const MotorTarget& motor, const MotorMemory& memory, d
                 speed = std::min(speed, std::sqrt(memory.acceleration / unit * std::abs(left)));
             speed = std::clamp(left / std::max(step, tuning::kServo), -speed, speed);
         }
-        // What rigid bodies' rows are stiff by is for a part of 1/240 s.
+        // What rigid bodies' rows are stiff by is for a part of 1/240 s. This one keeps no energy, and goes
+        // by the part: else it would be too soft in short ones.
         const double part = tuning::kFrame / tuning::kParts[0] / step;
-        drive(rigid * part * part * tuning::kMotor / tuning::kRigidTied, unit * (start_ + speed * step),
-              std::min(motor.force / unit, kAny));
+        drive(rigid * part * part, unit * start_, std::min(motor.force / unit, kAny));
         rows.back().hold += static_cast<Real>(memory.held) * rows.back().normal;
+        rows.back().target = static_cast<Real>(unit * speed * step) * rows.back().normal;
         rows.back().is_motor = true;
     }
     if (joint_.kind != Joint::Kind::slider) return;
