@@ -27,6 +27,8 @@ std::span<const Shortcut> shortcuts() {
                  "throw a copy of a body to the pointer"},
         Shortcut{GLFW_KEY_P, With::nothing, Command::pin, "P",
                  "pin the held body; remove the pin at the pointer"},
+        Shortcut{GLFW_KEY_A, With::nothing, Command::attach, "A",
+                 "attach a body by two clicks; with Ctrl by a rope"},
         Shortcut{GLFW_KEY_MINUS, With::nothing, Command::slower, "-", "half the speed"},
         Shortcut{GLFW_KEY_EQUAL, With::nothing, Command::faster, "+", "twice the speed, up to real time"},
         Shortcut{GLFW_KEY_F, With::nothing, Command::frame_all, "F", "show all bodies"},
@@ -43,6 +45,8 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_C, With::nothing, Command::toggle_contact_forces, "C", "contact forces as arrows"},
         Shortcut{GLFW_KEY_C, With::shift, Command::toggle_pressure, "Shift+C",
                  "pressure of contacts in colours"},
+        Shortcut{GLFW_KEY_A, With::shift, Command::toggle_attachments, "Shift+A",
+                 "attachments: points, lines and axes"},
         Shortcut{GLFW_KEY_G, With::nothing, Command::toggle_start_screen, "G", "choose another scene"},
         Shortcut{GLFW_KEY_TAB, With::nothing, Command::toggle_panels, "Tab", "hide or show the panels"},
         Shortcut{GLFW_KEY_F12, With::nothing, Command::screenshot, "F12", "save the picture as PNG"},
@@ -52,7 +56,7 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_S, With::control, Command::save_scene, "Ctrl+S", "save the scene with its changes"},
         Shortcut{GLFW_KEY_F1, With::nothing, Command::toggle_help, "F1", "this list"},
         Shortcut{GLFW_KEY_ESCAPE, With::nothing, Command::dismiss, "Esc",
-                 "close a message, this list, the choice of scenes"},
+                 "close a message, this list, the choice of scenes; attach nothing"},
         Shortcut{GLFW_KEY_Q, With::control, Command::quit, "Ctrl+Q", "quit"},
     };
     return kShortcuts;
