@@ -114,7 +114,7 @@ std::optional<std::string> AttachTool::follow(Simulator& simulator) {
     made.name = free_attachment_name(simulator.scene(), kind);
     simulator.attach(made);
     return fmt::format("{}: '{}' to {}", made.name, made.object,
-                       made.to.empty() ? "where it is" : fmt::format("'{}'", made.to));
+                       made.to.empty() ? "space" : fmt::format("'{}'", made.to));
 }
 
 AttachmentDescription moved_attachment(const AttachmentDescription& description, const Attachment& made,

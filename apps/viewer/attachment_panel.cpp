@@ -58,6 +58,9 @@ void draw_attachment(const Session& session, std::size_t index, Requests& reques
     const AttachmentStatus& status = session.attachments()[index];
     const AttachmentDescription& attachment = session.scene().attachments[index];
     ImGui::TextUnformatted(status.name.c_str());
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s to %s", attachment.object.c_str(),
+                          attachment.to.empty() ? "space" : attachment.to.c_str());
     if (status.is_broken) {
         ImGui::SameLine();
         ImGui::TextDisabled("broken");

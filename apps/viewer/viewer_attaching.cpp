@@ -6,6 +6,9 @@ namespace gelatin::viewer {
 void ViewerApp::begin_to_attach() {
     if (session_->recording() != nullptr) return notify("in a recording nothing can be attached");
     session_->attach_tool().begin();
+    Overlays overlays = panels_.overlays;
+    overlays.attachments = true;  // to show what will be made
+    show_overlays(overlays);
 }
 
 bool ViewerApp::click_to_attach(const ButtonChange& button) {
