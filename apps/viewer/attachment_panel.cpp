@@ -12,8 +12,8 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr float kListHeight = 260.0f;
-constexpr double kMostForce = 1e6;  // of a motor [N m] or [N]
+constexpr float kListHeight = 260.0f;  // at most: a chain has fifty
+constexpr double kMostForce = 1e6;     // of a motor [N m] or [N]
 
 bool turns(const AttachmentDescription& attachment) {
     return std::holds_alternative<AttachedLine>(attachment.where);
@@ -49,7 +49,7 @@ bool edit_motor(const AttachmentDescription& attachment, JointMotor& motor) {
             slide_motor("speed##motor", *motor.speed, -most, most, is_angle ? "%.1f deg/s" : "%.3f m/s");
     }
     if (motor.force)
-        changed |= slide_motor("most", *motor.force, 0.0, std::max(kMostForce, *motor.force),
+        changed |= slide_motor("greatest", *motor.force, 0.0, std::max(kMostForce, *motor.force),
                                is_angle ? "%.4g N m" : "%.4g N", ImGuiSliderFlags_Logarithmic);
     return changed;
 }
@@ -79,16 +79,25 @@ void draw_attachment(const Session& session, std::size_t index, Requests& reques
     if (motor && edit_motor(attachment, *motor)) requests.motors.emplace_back(index, *motor);
 }
 
+float height_of(const Session& session, std::size_t index) {
+    const AttachmentStatus& status = session.attachments()[index];
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    if (status.is_broken) return line;
+    const std::optional<JointMotor> motor = session.motor(index);
+    const int sliders = !motor ? 0 : motor->force ? 2 : 1;
+    return (status.joint ? 2.0f : 1.0f) * line +
+           static_cast<float>(sliders) * ImGui::GetFrameHeightWithSpacing();
+}
+
 }  // namespace
 
 void draw_attachments(const Session& session, const PanelState& state, Requests& requests) {
     if (ImGui::Button("Attach by two clicks", {-1.0f, 0.0f})) requests.commands.push_back(Command::attach);
     const std::size_t count = session.attachments().size();
     if (count == 0) return ImGui::TextDisabled("there are none");
-    // As high as its lines, and no higher than that: a chain has fifty.
-    const float line = ImGui::GetTextLineHeightWithSpacing();
-    const float lines = 2.0f * static_cast<float>(count) * line;
-    ImGui::BeginChild("attachments", {0.0f, std::min(kListHeight * state.scale, lines)});
+    float height = 0.0f;
+    for (std::size_t a = 0; a < count; ++a) height += height_of(session, a);
+    ImGui::BeginChild("attachments", {0.0f, std::min(kListHeight * state.scale, height)});
     for (std::size_t a = 0; a < count; ++a) {
         ImGui::PushID(static_cast<int>(a));
         draw_attachment(session, a, requests);

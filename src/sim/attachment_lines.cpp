@@ -24,15 +24,21 @@ AttachmentLine line_of(float kind, const glm::dvec3& from, const glm::dvec3& to)
     return {glm::vec4(from, kind), glm::vec4(to, 0.0f)};
 }
 
-void add_axes(const Joint& joint, std::span<const glm::vec4> positions, std::vector<AttachmentLine>& lines) {
+void add_axes(const Joint& joint, const glm::dvec3& middle, std::span<const glm::vec4> positions,
+              std::vector<AttachmentLine>& lines) {
     if (joint.kind == Joint::Kind::none || joint.kind == Joint::Kind::distance) return;
-    const Frame own = frame_of(joint.own, positions), other = frame_of(joint.other, positions);
     const auto add = [&](const glm::dvec3& direction) {
         const glm::dvec3 arm = kAxisLength * joint.lever * direction;
-        lines.push_back(line_of(kAxis, own.point - arm, own.point + arm));
+        lines.push_back(line_of(kAxis, middle - arm, middle + arm));
     };
-    add(other.axes[2]);
-    if (joint.kind == Joint::Kind::universal) add(own.axes[0]);
+    add(frame_of(joint.other, positions).axes[2]);
+    if (joint.kind == Joint::Kind::universal) add(frame_of(joint.own, positions).axes[0]);
+}
+
+glm::dvec3 middle_of_own(std::span<const AttachedPoints> all) {
+    glm::dvec3 sum(0.0);
+    for (const AttachedPoints& points : all) sum += points.own;
+    return sum / static_cast<double>(all.size());
 }
 
 }  // namespace
@@ -53,8 +59,9 @@ std::vector<AttachmentLine> attachment_lines(std::span<const Attachment> attachm
     std::vector<AttachmentLine> lines;
     for (const Attachment& attachment : attachments) {
         if (attachment.is_broken) continue;
-        add_axes(attachment.joint, positions, lines);
-        for (const AttachedPoints& points : attached_points(attachment, model, positions)) {
+        const std::vector<AttachedPoints> all = attached_points(attachment, model, positions);
+        add_axes(attachment.joint, middle_of_own(all), positions, lines);
+        for (const AttachedPoints& points : all) {
             if (points.own != points.other) lines.push_back(line_of(kBetween, points.own, points.other));
             lines.push_back(line_of(kPoint, points.own, points.own));
             if (attachment.joint.kind == Joint::Kind::distance)
