@@ -28,7 +28,7 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_P, With::nothing, Command::pin, "P",
                  "pin the held body; remove the pin at the pointer"},
         Shortcut{GLFW_KEY_A, With::nothing, Command::attach, "A",
-                 "attach a body by two clicks; with Ctrl by a rope"},
+                 "attach a body by two clicks; Ctrl: by a rope"},
         Shortcut{GLFW_KEY_MINUS, With::nothing, Command::slower, "-", "half the speed"},
         Shortcut{GLFW_KEY_EQUAL, With::nothing, Command::faster, "+", "twice the speed, up to real time"},
         Shortcut{GLFW_KEY_F, With::nothing, Command::frame_all, "F", "show all bodies"},
@@ -56,7 +56,7 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_S, With::control, Command::save_scene, "Ctrl+S", "save the scene with its changes"},
         Shortcut{GLFW_KEY_F1, With::nothing, Command::toggle_help, "F1", "this list"},
         Shortcut{GLFW_KEY_ESCAPE, With::nothing, Command::dismiss, "Esc",
-                 "close a message, this list, the choice of scenes; attach nothing"},
+                 "close a message, this list, the choice of scenes"},
         Shortcut{GLFW_KEY_Q, With::control, Command::quit, "Ctrl+Q", "quit"},
     };
     return kShortcuts;
