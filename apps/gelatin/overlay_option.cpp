@@ -43,7 +43,8 @@ enum class Kind {
     velocity,
     forces,
     objects,
-    wireframe
+    wireframe,
+    attachments
 };
 
 // "NAME", or with fields "NAME:FIELD:FIELD".
@@ -70,7 +71,8 @@ struct Request {
                              {"velocity", Kind::velocity},
                              {"forces", Kind::forces},
                              {"objects", Kind::objects},
-                             {"wireframe", Kind::wireframe}});
+                             {"wireframe", Kind::wireframe},
+                             {"attachments", Kind::attachments}});
     }
 
     double number(std::size_t field, const Limit& limit) const {
@@ -182,6 +184,10 @@ void show(const Request& request, Overlays& overlays) {
         case Kind::wireframe:
             request.allow(0);
             overlays.wireframe = true;
+            return;
+        case Kind::attachments:
+            request.allow(0);
+            overlays.attachments = true;
             return;
     }
 }

@@ -43,4 +43,10 @@ void draw_markers(float scale, const std::vector<Marker>& markers, const Marker*
     if (pointed != nullptr) draw_name(list, on_screen(pointed->target), scale, pointed->name);
 }
 
+void draw_first_point(float scale, const glm::vec2& place, const glm::vec2& pointer) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddLine(on_screen(place), on_screen(pointer), kPointed, 1.5f * scale);
+    draw_mark(list, on_screen(place), 5.0f * scale, true, kPointed);
+}
+
 }  // namespace gelatin::viewer

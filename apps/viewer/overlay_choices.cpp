@@ -57,6 +57,9 @@ std::optional<Overlays> toggled(Overlays overlays, Command command, const Render
         case Command::toggle_objects:
             overlays.objects = !overlays.objects;
             return overlays;
+        case Command::toggle_attachments:
+            overlays.attachments = !overlays.attachments;
+            return overlays;
         default:
             return {};
     }

@@ -168,6 +168,8 @@ void draw_overlay_choices(const Session& session, const PanelState& state, Reque
     changed |= choose_springs(overlays);
     changed |= ImGui::Checkbox("faces that touch", &overlays.faces);
     changed |= choose_boxes(overlays);
+    if (!session.scene().attachments.empty())
+        changed |= ImGui::Checkbox("attachments", &overlays.attachments);
     if (changed) requests.overlays = overlays;
     bool markers = state.shows_markers;
     if (!session.held_nodes().empty() && ImGui::Checkbox("pins and handles", &markers))

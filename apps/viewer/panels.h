@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command.h"
@@ -33,6 +34,8 @@ struct Requests {
     std::optional<Overlays> overlays;
     std::optional<bool> shows_markers;
     std::optional<Scene> edited;
+    std::vector<std::size_t> detached;  ///< attachments, by their place in the scene; the same for motors
+    std::vector<std::pair<std::size_t, JointMotor>> motors;
     std::vector<std::filesystem::path> opened;  ///< a scene or meshes; empty: nothing
 };
 
@@ -44,10 +47,15 @@ void draw_session_panel(const Session& session, const PanelState& state, Request
 void draw_playback(const Session& session, const PanelState& state, Requests& requests);
 void draw_settings(const PanelState& state, Requests& requests);
 void draw_readings(const Session& session, const PanelState& state);
+/// @pre not of a recording
+void draw_attachments(const Session& session, const PanelState& state, Requests& requests);
 void draw_overlay_choices(const Session& session, const PanelState& state, Requests& requests);
 
 /// Over the picture and under the panels. @param pointed the one at the pointer; null: none
 void draw_markers(float scale, const std::vector<Marker>& markers, const Marker* pointed);
+
+/// The point that was clicked first, and a line to the pointer. As of markers.
+void draw_first_point(float scale, const glm::vec2& place, const glm::vec2& pointer);
 
 /// The list of keys and mouse gestures.
 void draw_help(float scale, Requests& requests);

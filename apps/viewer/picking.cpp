@@ -71,6 +71,27 @@ std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::
     return nearest;
 }
 
+FacePoint face_point(const Pick& pick, const Face& face, std::span<const float> positions) {
+    const glm::vec3 a = position_of(positions, face.a), b = position_of(positions, face.b),
+                    c = position_of(positions, face.c), normal = glm::cross(b - a, c - a);
+    const auto share = [&](const glm::vec3& from, const glm::vec3& to) {
+        return glm::dot(normal, glm::cross(to - from, pick.point - from)) / glm::dot(normal, normal);
+    };
+    return {face, {share(b, c), share(c, a), share(a, b)}};
+}
+
+glm::vec3 place_of(const FacePoint& point, std::span<const float> positions) {
+    return point.weights.x * position_of(positions, point.face.a) +
+           point.weights.y * position_of(positions, point.face.b) +
+           point.weights.z * position_of(positions, point.face.c);
+}
+
+float shortest_edge(const FacePoint& point, std::span<const float> positions) {
+    const glm::vec3 a = position_of(positions, point.face.a), b = position_of(positions, point.face.b),
+                    c = position_of(positions, point.face.c);
+    return std::min({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+}
+
 Pull take_hold(const Model& model, std::span<const float> positions, const Pick& pick) {
     const ModelObject& object = model.objects[pick.object];
     const std::vector<std::uint32_t> carrying = carrying_nodes(model, pick.face);

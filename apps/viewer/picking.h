@@ -31,6 +31,18 @@ struct Pick {
 /// @param positions x, y, z of what the faces are between [m]
 std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::span<const Face> faces);
 
+/// A point of a face that is drawn, which moves with it.
+struct FacePoint {
+    Face face{};
+    glm::vec3 weights{0.0f};  ///< of its corners; the sum is 1
+};
+
+/// @param positions x, y, z of what the faces are between [m]; the same below
+FacePoint face_point(const Pick& pick, const Face& face, std::span<const float> positions);
+glm::vec3 place_of(const FacePoint& point, std::span<const float> positions);
+/// [m]
+float shortest_edge(const FacePoint& point, std::span<const float> positions);
+
 /// A pull at the picked point. It holds the object's nodes around it, the nearest most firmly, and always
 /// those that carry the face's corners. The springs are as stiff as would make the whole body follow like a
 /// critically damped oscillator of kHandRate.

@@ -39,9 +39,12 @@ Session::Session(LoadedScene loaded, Backend backend, const Session* earlier)
     : simulator_(make_simulator(std::move(loaded), backend)),
       device_(simulator_.device()),
       pace_(step_of(simulator_)),
-      held_nodes_(simulator_.held_nodes()) {
+      held_nodes_(simulator_.held_nodes()),
+      attachments_(simulator_.attachments()),
+      own_attachments_(simulator_.scene().attachments.size()) {
     if (earlier == nullptr) return;
     simulator_.go_on_from(earlier->simulator_);
+    attach_as(*earlier);
     held_nodes_ = simulator_.held_nodes();
     pace_.set_speed(earlier->pace_.speed());
     readings_ = earlier->readings_;
@@ -101,6 +104,7 @@ void Session::take_over() {
     } else {
         follow_hand();
         follow_drags();
+        follow_attachments();
     }
     time_ = simulator_.time();
     frame_ = simulator_.frame();
@@ -109,6 +113,9 @@ void Session::take_over() {
 void Session::go_back() {
     simulator_.reset();
     drags_asked_.clear();
+    detached_.clear();
+    motors_.clear();
+    motors_asked_.clear();
     problem_.clear();
     readings_.clear();
     pace_.restart();
@@ -119,6 +126,7 @@ void Session::go_back() {
 void Session::follow_recording() {
     hand_ = Hand::free;
     drags_asked_.clear();
+    attach_tool_.cancel();
     const Recording& recording = *simulator_.recording();
     if (index_asked_) {
         try {
@@ -171,6 +179,77 @@ void Session::drag(std::size_t held, const Drag& target) {
 void Session::follow_drags() {
     for (const auto& [held, target] : std::exchange(drags_asked_, {})) simulator_.drag(held, target);
     held_nodes_ = simulator_.held_nodes();
+}
+
+void Session::follow_attachments() {
+    try {
+        change_attachments();
+    } catch (const InvalidInput& error) {
+        refusal_ = error.what();
+    }
+    attachments_ = simulator_.attachments();
+}
+
+void Session::change_attachments() {
+    for (const std::size_t attachment : std::exchange(detached_, {})) {
+        simulator_.detach(attachment);
+        is_view_old_ = true;
+    }
+    for (const auto& [attachment, motor] : std::exchange(motors_asked_, {})) {
+        simulator_.set_motor(attachment, motor);
+        motors_[attachment] = motor;
+    }
+    if (std::optional<std::string> made = attach_tool_.follow(simulator_)) {
+        news_ = std::move(*made);
+        is_view_old_ = true;
+    }
+}
+
+// What was made, broken and set there. The scene's own attachments are the same.
+void Session::attach_as(const Session& earlier) {
+    const std::span<const Attachment> made = SimulatorInternals::attachments(earlier.simulator_);
+    const std::vector<AttachmentDescription>& descriptions = earlier.scene().attachments;
+    try {
+        for (std::size_t a = 0; a < earlier.attachments_.size(); ++a) {
+            const bool is_own = a < earlier.own_attachments_;
+            if (is_own && made[a].is_broken) simulator_.detach(a);
+            if (!is_own && !made[a].is_broken)
+                simulator_.attach(moved_attachment(descriptions[a], made[a], earlier.model(),
+                                                   earlier.simulator_.positions()));
+        }
+        for (const auto& [attachment, motor] : earlier.motors_) {
+            simulator_.set_motor(attachment, motor);
+            motors_[attachment] = motor;
+        }
+    } catch (const InvalidInput& error) {
+        refusal_ = error.what();
+    }
+    attachments_ = simulator_.attachments();
+}
+
+std::optional<JointMotor> Session::motor(std::size_t attachment) const {
+    const auto asked = motors_asked_.find(attachment), set = motors_.find(attachment);
+    if (asked != motors_asked_.end()) return asked->second;
+    if (set != motors_.end()) return set->second;
+    return scene().attachments[attachment].motor;
+}
+
+Scene Session::own_scene() const {
+    Scene own = scene();
+    own.attachments.resize(own_attachments_);
+    return own;
+}
+
+std::vector<AttachmentDescription> Session::attachments_to_save() const {
+    std::vector<AttachmentDescription> saved = own_scene().attachments;
+    for (const auto& [attachment, motor] : motors_)
+        if (attachment < saved.size()) saved[attachment].motor = motor;
+    if (attachments_.size() <= own_attachments_) return saved;
+    const std::span<const Attachment> made = SimulatorInternals::attachments(simulator_);
+    for (std::size_t a = own_attachments_; a < attachments_.size(); ++a)
+        if (!attachments_[a].is_broken)
+            saved.push_back(moved_attachment(scene().attachments[a], made[a], model(), model().positions));
+    return saved;
 }
 
 void Session::start_batch(int steps, double now) {

@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "attach_tool.h"
 #include "gelatin/simulator.h"
 #include "gl/fence.h"
 #include "pace.h"
@@ -67,6 +69,24 @@ public:
     /// Drags one of them to a target, from the next batch on.
     void drag(std::size_t held, const Drag& target);
 
+    /// Attaches by two clicks; each takes effect once the running batch is done.
+    AttachTool& attach_tool() { return attach_tool_; }
+    const AttachTool& attach_tool() const { return attach_tool_; }
+    /// In the order of scene().attachments, as of the last completed batch; empty for recordings.
+    const std::vector<AttachmentStatus>& attachments() const { return attachments_; }
+    /// Breaks an attachment, from the next batch on.
+    void detach(std::size_t attachment) { detached_.push_back(attachment); }
+    /// What the motor of a joint does, from the next batch on.
+    void set_motor(std::size_t attachment, const JointMotor& motor) { motors_asked_[attachment] = motor; }
+    /// What it does at present; empty: the joint has none.
+    std::optional<JointMotor> motor(std::size_t attachment) const;
+    /// The scene's own attachments with their present motors, then those that were made here and are not
+    /// broken, where their points are at the start.
+    std::vector<AttachmentDescription> attachments_to_save() const;
+    /// What was made, and why something could not be, since the last call; empty if there is nothing.
+    std::string take_news() { return std::exchange(news_, {}); }
+    std::string take_refusal() { return std::exchange(refusal_, {}); }
+
     /// True while a batch is running: the simulator must not be accessed.
     bool is_computing() const { return worker_.is_busy() || !fence_.is_passed(); }
 
@@ -86,6 +106,8 @@ public:
 
     /// Constant properties.
     const Scene& scene() const { return simulator_.scene(); }
+    /// Without the attachments that were made here.
+    Scene own_scene() const;
     const Model& model() const { return model_of(simulator_); }
     /// @pre !is_computing(), for properties that change
     const Simulator& simulator() const { return simulator_; }
@@ -96,6 +118,9 @@ private:
     void follow_recording();
     void follow_hand();
     void follow_drags();
+    void follow_attachments();
+    void change_attachments();
+    void attach_as(const Session& earlier);
     void start_batch(int steps, double now);
     void run_batch(int steps, bool measure);
     void fail(const std::string& problem);
@@ -116,6 +141,12 @@ private:
     Pull pull_;
     std::vector<HeldNodes> held_nodes_;
     std::vector<std::pair<std::size_t, Drag>> drags_asked_;
+    AttachTool attach_tool_;
+    std::vector<AttachmentStatus> attachments_;
+    std::size_t own_attachments_;  // of the scene; the others were made here
+    std::vector<std::size_t> detached_;
+    std::map<std::size_t, JointMotor> motors_, motors_asked_;  // that were set here
+    std::string news_, refusal_;
     glm::vec3 held_point_{0.0f}, hand_target_{0.0f};
     double last_update_ = 0.0, last_measure_ = -1.0;  // [s]
     double time_ = 0.0;

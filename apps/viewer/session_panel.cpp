@@ -44,6 +44,8 @@ void draw_session_panel(const Session& session, const PanelState& state, Request
     draw_playback(session, state, requests);
     if (ImGui::CollapsingHeader("Show")) draw_overlay_choices(session, state, requests);
     if (ImGui::CollapsingHeader("Settings")) draw_settings(state, requests);
+    if (session.recording() == nullptr && ImGui::CollapsingHeader("Attachments"))
+        draw_attachments(session, state, requests);
     if (ImGui::CollapsingHeader("Readings")) draw_readings(session, state);
     ImGui::PopItemWidth();
     ImGui::End();

@@ -47,6 +47,7 @@ void ViewerApp::draw_frame() {
     if (session_ && std::exchange(told_problem_, session_->problem()) != session_->problem())
         if (!session_->problem().empty()) fail(session_->problem() + "\n\nR goes back to the start.");
     follow_hand();
+    follow_attach_tool();
     draw_picture(is_new);
     const Requests requests = draw_panels();
     window_.draw_panels();
@@ -74,7 +75,7 @@ void ViewerApp::take_loaded_scene() {
     } catch (const Error& error) {
         fail(error.what());
         if (!session_) return;
-        panels_.edited = session_->scene();  // the request is impossible
+        panels_.edited = session_->own_scene();  // the request is impossible
         if (!hand_depth_) session_->let_go();
     }
 }
@@ -153,6 +154,7 @@ Requests ViewerApp::draw_panels() {
     if (session_ && !shows_start_screen()) {
         const std::vector<Marker> marked = markers();
         draw_markers(scale, marked, pointed(marked));
+        draw_attach_tool();
         if (shows_panels_) draw_session_panel(*session_, panels_, requests);
     }
     // One panel in the middle at a time.
@@ -167,6 +169,8 @@ Requests ViewerApp::draw_panels() {
         const double since = window_.now() - opened_at_;
         draw_notice(scale, fmt::format("opening {} ...{}", loader_.file().filename().string(),
                                        since < kLong ? "" : fmt::format(" {:.0f} s", since)));
+    } else if (session_ && session_->attach_tool().is_active()) {
+        draw_notice(scale, session_->attach_tool().hint());
     } else if (window_.now() < notice_until_) {
         draw_notice(scale, notice_);
     } else if (film_) {

@@ -62,6 +62,10 @@ private:
     const Marker* pointed(const std::vector<Marker>& markers) const;
     bool take_handle(bool turns);
     void pin();
+    bool click_to_attach(const ButtonChange& button);
+    void begin_to_attach();
+    void follow_attach_tool();
+    void draw_attach_tool();
     void obey(Command command);
     void obey(const Requests& requests);
     void throw_body();

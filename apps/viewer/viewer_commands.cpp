@@ -38,6 +38,7 @@ void ViewerApp::obey(Command command) {
     if (command == Command::toggle_help) {
         shows_help_ = !shows_help_;
     } else if (command == Command::dismiss) {
+        if (session_) session_->attach_tool().cancel();
         if (problem_.empty() && !std::exchange(shows_help_, false)) shows_start_screen_ = false;
         problem_.clear();
     } else if (command == Command::toggle_start_screen) {
@@ -70,6 +71,8 @@ void ViewerApp::obey(Command command) {
             return throw_body();
         case Command::pin:
             return pin();
+        case Command::attach:
+            return begin_to_attach();
         case Command::slower:
             return session_->set_speed(std::max(0.5 * session_->pace().speed(), kLeastSpeed));
         case Command::faster:
@@ -94,6 +97,10 @@ void ViewerApp::obey(const Requests& requests) {
     if (requests.recorded && session_) session_->show_recorded(*requests.recorded);
     if (requests.overlays) show_overlays(*requests.overlays);
     if (requests.shows_markers) panels_.shows_markers = *requests.shows_markers;
+    if (session_) {
+        for (const std::size_t attachment : requests.detached) session_->detach(attachment);
+        for (const auto& [attachment, motor] : requests.motors) session_->set_motor(attachment, motor);
+    }
     if (!requests.opened.empty()) open(requests.opened);
     if (requests.edited) {
         panels_.edited = *requests.edited;
@@ -120,11 +127,12 @@ std::string ViewerApp::stem() const {
     return options_.input.files.front().stem().string();
 }
 
-// With the present camera and drags.
+// With the present camera, drags and attachments.
 void ViewerApp::save_scene() {
     if (loader_.is_busy()) return notify("the scene is still being built");
     const std::filesystem::path file = free_name(stem(), ".toml");
     Scene scene = dragged_scene(panels_.edited, session_->held_nodes());
+    scene.attachments = session_->attachments_to_save();
     const render::Camera camera = camera_.camera();
     scene.camera = CameraDescription{glm::dvec3(camera.eye), glm::dvec3(camera.target),
                                      static_cast<double>(camera.field_of_view)};

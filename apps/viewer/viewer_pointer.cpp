@@ -35,6 +35,7 @@ void ViewerApp::handle(const ButtonChange& button) {
     pointer_ = button.place;
     if (button.is_down && !dragging_) {
         const bool is_left = button.button == GLFW_MOUSE_BUTTON_LEFT;
+        if (is_left && click_to_attach(button)) return;
         if (is_left) take_handle(button.with_control);
         dragging_ = button.button;
         if (!session_ || !is_left || handle_drag_) return;

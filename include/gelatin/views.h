@@ -52,10 +52,12 @@ struct Overlays {
     std::optional<ForceArrows> contact_forces = {};
     bool objects = false;    ///< each object in its own colour, with its name
     bool wireframe = false;  ///< the edges of the surfaces
+    /// Where attachments hold bodies, and the axes of joints. Of a recording, those that cannot break.
+    bool attachments = false;
 
     bool any() const {
         return box_levels || faces || full_strain || color_map || cut || arrow_time || contact_forces ||
-               objects || wireframe;
+               objects || wireframe || attachments;
     }
 };
 
@@ -108,6 +110,10 @@ struct OverlayView {
     std::optional<ArrowView> contact_forces = {};  ///< each begins at a node that is pressed
     std::optional<ObjectView> objects = {};
     bool wireframe = false;
+    /// Two vec4: xyz of one end [m], 0 for a point, 1 for a line between the sides of an attachment, 2 for an
+    /// axis; xyz of the other end [m], 0; shape [attachment_line_count]
+    unsigned attachment_lines = 0;
+    std::uint32_t attachment_line_count = 0;
 };
 
 /// Triangles with the same texture, in place of their object's colour.

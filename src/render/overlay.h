@@ -4,6 +4,7 @@
 
 #include "gelatin/views.h"
 #include "render/arrow_overlay.h"
+#include "render/attachment_overlay.h"
 #include "render/body_overlay.h"
 #include "render/box_overlay.h"
 #include "render/cut_overlay.h"
@@ -46,6 +47,7 @@ private:
     std::optional<FaceOverlay> faces_;
     std::optional<BoxOverlay> boxes_;
     std::optional<ArrowOverlay> arrows_;
+    std::optional<AttachmentOverlay> attachments_;
     std::optional<LabelOverlay> labels_;
     std::optional<Legend> legend_;
 };

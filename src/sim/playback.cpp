@@ -1,8 +1,12 @@
 #include "sim/playback.h"
 
+#include <cmath>
+#include <string>
 #include <utility>
 
+#include "core/log.h"
 #include "gelatin/error.h"
+#include "model/assembly/attachments.h"
 #include "model/assembly/build_model.h"
 #include "model/explicit/stability.h"
 #include "sim/backend.h"
@@ -27,6 +31,19 @@ void Playback::step() {
 
 Simulation& Playback::simulation() {
     throw InvalidInput("this simulator plays a recording: nothing in it can be changed");
+}
+
+std::span<const Attachment> Playback::shown_attachments() {
+    if (attachments_) return *attachments_;
+    attachments_.emplace();
+    try {
+        const RecordedFrame& first = RecordingInternals::frame(*recording, *model, 0);
+        attachments_ = make_attachments(scene, *model, first.moment.state.positions);
+        std::erase_if(*attachments_, [](const Attachment& made) { return std::isfinite(made.break_force); });
+    } catch (const InvalidInput& error) {  // it begins in the middle of a run
+        log_warning(std::string("attachments are not drawn: ") + error.what());
+    }
+    return *attachments_;
 }
 
 void Playback::show(std::size_t index) {

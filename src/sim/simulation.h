@@ -37,6 +37,7 @@ struct Simulation final : SimulatorInternals::Impl {
     int steps_a_frame() const override { return clock.substeps(); }
     Simulation& simulation() override { return *this; }
     Playback* playback() override { return nullptr; }
+    std::span<const Attachment> shown_attachments() override { return attachments; }
 
     State first_state() const;
     /// Continues from this state. Pending measurements belong to the old one.

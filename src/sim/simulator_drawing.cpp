@@ -20,6 +20,9 @@ RenderView Simulator::render_view(const Overlays& overlays) {
     const Stage stage(d.solver->stage_timer(), "update_overlays");
     view.overlay =
         d.solver.visit([&](auto& solver) { return d.overlay_source->update(overlays, view, solver); });
+    if (overlays.attachments)
+        d.overlay_source->view_attachments(d.shown_attachments(), d.solver->read_state().positions,
+                                           view.overlay);
     return view;
 }
 

@@ -3,6 +3,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "gelatin/simulator.h"
@@ -71,6 +72,8 @@ struct Simulator::Impl {
     virtual int steps_a_frame() const = 0;
     /// For what changes a run. @throws InvalidInput if a recording is played
     virtual Simulation& simulation() = 0;
+    /// Those that are drawn.
+    virtual std::span<const Attachment> shown_attachments() = 0;
     /// Null: it simulates.
     virtual Playback* playback() = 0;
 

@@ -11,6 +11,10 @@ const Model& SimulatorInternals::model(const Simulator& simulator) {
     return *simulator.impl_->model;
 }
 
+std::span<const Attachment> SimulatorInternals::attachments(const Simulator& simulator) {
+    return simulator.impl_->shown_attachments();
+}
+
 std::shared_ptr<const Model> SimulatorInternals::share_model(const Simulator& simulator) {
     return simulator.impl_->model;
 }

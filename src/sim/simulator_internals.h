@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "gelatin/simulator.h"
 #include "gl/host_state.h"
@@ -15,6 +16,9 @@ struct SimulatorInternals {
     using Impl = Simulator::Impl;
 
     static const Model& model(const Simulator& simulator);
+
+    /// In the order of Scene::attachments; of a recording, those that are drawn.
+    static std::span<const Attachment> attachments(const Simulator& simulator);
 
     /// The model and the solver that it has at present: others after set_material or pin.
     static std::shared_ptr<const Model> share_model(const Simulator& simulator);

@@ -211,6 +211,31 @@ TEST_P(OverlayTest, SpringsShowThroughTheirBody) {
     EXPECT_GT(color_at(plain, inside).g, color_at(plain, inside).r + 20.0);
 }
 
+// Two points, a line between them before the ball, and an axis behind it.
+TEST_P(OverlayTest, AttachmentsAreWhereTheyProject) {
+    const glm::vec3 left(-0.5f, 0.6f, 0.5f), right(0.5f, 0.6f, 0.5f), behind(0.0f, 0.6f, -0.6f);
+    const auto lines = buffer_of<glm::vec4>(
+        {glm::vec4(left, 0.0f), glm::vec4(left, 0.0f), glm::vec4(right, 0.0f), glm::vec4(right, 0.0f),
+         glm::vec4(left, 1.0f), glm::vec4(right, 0.0f), glm::vec4(behind - glm::vec3(0.7f, 0.0f, 0.0f), 2.0f),
+         glm::vec4(behind + glm::vec3(0.7f, 0.0f, 0.0f), 0.0f)});
+    const Image plain = draw();
+    const Image image = draw({.attachment_lines = lines.id(), .attachment_line_count = 4});
+    for (const glm::vec3& point : {left, right}) {
+        const glm::dvec3 color = color_at(image, point);
+        EXPECT_GT(color.b, color.r + 60.0) << "blue at " << point.x;
+    }
+    const glm::ivec2 middle(project(0.5f * (left + right)));
+    const auto around = [&](const Image& drawn, const glm::ivec2& pixel) {
+        return test::mean_color(drawn, pixel.x, pixel.y - 2, 1, 5);
+    };
+    EXPECT_GT(around(image, middle).b, around(plain, middle).b + 40.0) << "over the green ball";
+    const glm::ivec2 shown(project(behind + glm::vec3(0.65f, 0.0f, 0.0f)));
+    EXPECT_GT(around(image, shown).r - around(image, shown).g, 15.0) << "the axis beside the ball";
+    const glm::ivec2 hidden(project(behind + glm::vec3(0.2f, 0.0f, 0.0f)));
+    EXPECT_GT(around(image, hidden).r, around(plain, hidden).r + 15.0) << "and through it";
+    EXPECT_EQ(draw().pixels, plain.pixels) << "nothing stays";
+}
+
 // Heavy, though it is quick: LeakSanitizer crashes behind it ("Tracer caught signal 11").
 class LegendHeavy : public OverlayTest {};
 INSTANTIATE_TEST_SUITE_P(Qualities, LegendHeavy, kQualities);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "gelatin/views.h"
+#include "gl/program.h"
+#include "render/frame.h"
+
+namespace gelatin::render {
+
+/// Attachments: points as dots, lines between the two sides, and axes of joints; hidden parts are fainter.
+class AttachmentOverlay {
+public:
+    AttachmentOverlay();
+    void draw(const Frame& frame, const OverlayView& overlay) const;
+
+private:
+    gl::Program program_;
+};
+
+}  // namespace gelatin::render
