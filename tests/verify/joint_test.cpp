@@ -313,6 +313,22 @@ TEST(Joints, RopesHoldSoftBodies) {
     EXPECT_LT(least, 0.45);  // it was slack
 }
 
+// Bodies at a distance meet, as if nothing were between them.
+TEST(Joints, WhatIsAtADistanceMeets) {
+    Scene scene = rigid_scene();
+    add_floor(scene);
+    scene.objects = {rigid_box("lower", {0.4, 0.2, 0.4}, {0.0, 0.102, 0.0}),
+                     rigid_box("upper", {0.2, 0.2, 0.2}, {0.0, 0.6, 0.0})};
+    scene.attachments = {{.object = "upper",
+                          .to = "lower",
+                          .where = AttachedDistance{{0.0, 0.6, 0.0}, {0.0, 0.102, 0.0}},
+                          .limits = {{0.0, 0.6}}}};
+    MeasuredRun run(scene);
+    run.advance(1.5);
+    EXPECT_NEAR(run.center(1).y, 0.3, 0.01);
+    EXPECT_EQ(run.overlaps(), 0u);
+}
+
 // What rests with a motor that holds still sleeps, and wakes when it has to move.
 TEST(Joints, SleepUntilAMotorMoves) {
     Scene scene = bar_on_hinge({0.0, -kGravity, 0.0});

@@ -17,7 +17,7 @@ struct MotorMemory {
     double acceleration = 0.0;  ///< when its force was too small last; 0: it never was [m/s^2]
 };
 
-/// The rows of a joint in a step (docs/rigid-bodies.md#joints). Directions and angles change within it: rows
+/// The rows of a joint in a step (docs/joints.md#rows). Directions and angles change within it: rows
 /// are linear about where frames are expected at its end.
 template <class Real>
 class JointRows {
