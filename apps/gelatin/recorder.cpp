@@ -77,9 +77,10 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
                                                     model_of(simulator));
     }
     if (!options.animation.empty()) {
-        animation_ = make_animation_file(options.animation, model_of(simulator_),
-                                         {simulator_.scene().simulation.frame_rate,
-                                          object_colors(model_of(simulator_)), simulator_.scene().up});
+        animation_ = make_animation_file(
+            options.animation, model_of(simulator_),
+            {simulator_.scene().simulation.frame_rate, object_colors(model_of(simulator_)),
+             simulator_.scene().up, simulator_.scene().attachments});
     }
     if (!options.record.empty()) recording_.emplace(options.record, simulator_);
 }

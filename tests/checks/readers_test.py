@@ -8,6 +8,7 @@ the simulation. Files of floats must have the same, bit for bit, and so must tex
 """
 
 import json
+import math
 import os
 import struct
 import subprocess
@@ -43,6 +44,51 @@ position = [0, 2, 0]
 [[collider]]
 shape = {{ box = [4, 0.5, 4] }}
 position = [0, -0.25, 0]
+"""
+
+
+JOINTS = """
+[simulation]
+frames = 1
+[[material]]
+name = "jelly"
+[[object]]
+name = "box"
+shape = { box = [0.5, 0.5, 0.5] }
+position = [0, 2, 0]
+[[rigid]]
+name = "arm"
+shape = { box = [0.6, 0.1, 0.1] }
+material = "jelly"
+position = [3, 1, 0]
+[[rigid]]
+name = "hand"
+shape = { box = [0.2, 0.1, 0.1] }
+material = "jelly"
+position = [3.5, 1, 0]
+[[attachment]]
+object = "arm"
+line = [[2.7, 1, 0], [2.7, 1, 1]]
+limits = [-30, 45]
+spring = { stiffness = 5, damping = 0.1, rest = 10 }
+[[attachment]]
+object = "hand"
+to = "arm"
+rail = [[3.5, 1, 0], [4.5, 1, 0]]
+motor = { speed = 0.5, force = 20 }
+break_force = 500
+[[attachment]]
+object = "hand"
+to = "arm"
+universal = { point = [3.4, 1, 0], own = [0, 1, 0], of_other = [0, 0, 1] }
+[[attachment]]
+object = "hand"
+distance = [[3.5, 1, 0], [3.5, 2, 0]]
+limits = [0, 1.5]
+[[attachment]]
+object = "box"
+to = "arm"
+distance = [[0, 2, 0], [3, 1, 0]]
 """
 
 
@@ -286,6 +332,41 @@ class Readers(unittest.TestCase):
         values = tets.GetPointData()
         names = [values.GetArrayName(k) for k in range(values.GetNumberOfArrays())]
         self.assertEqual(names, ["velocity", "displacement", "contact_force", "contact_friction"])
+
+
+class Joints(unittest.TestCase):
+    def test_usd_has_joints_of_rigid_bodies(self):
+        from pxr import Gf, Usd, UsdPhysics, UsdValidation
+
+        with tempfile.TemporaryDirectory() as folder:
+            scene, film = Path(folder) / "joints.toml", Path(folder) / "joints.usda"
+            scene.write_text(JOINTS)
+            subprocess.run([PROGRAM, "run", scene, "--quiet", "--animation", film], check=True)
+            stage = Usd.Stage.Open(str(film))
+        validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+        problems = UsdValidation.ValidationContext(validators).Validate(stage)
+        self.assertEqual([problem.GetMessage() for problem in problems], [])
+        arm, hand = stage.GetPrimAtPath("/simulation/arm"), stage.GetPrimAtPath("/simulation/hand")
+        self.assertTrue(UsdPhysics.RigidBodyAPI(arm).GetKinematicEnabledAttr().Get())
+        self.assertAlmostEqual(UsdPhysics.MassAPI(arm).GetMassAttr().Get(), 0.006 * 1000, 4)
+        joints = [UsdPhysics.Joint(prim) for prim in stage.GetPrimAtPath("/simulation/joints").GetChildren()]
+        self.assertEqual(len(joints), 4)  # none of what is deformable
+        hinge, slider, universal, rope = joints
+        self.assertEqual(hinge.GetBody0Rel().GetTargets(), [])
+        self.assertEqual(hinge.GetBody1Rel().GetTargets(), [arm.GetPath()])
+        revolute = UsdPhysics.RevoluteJoint(hinge.GetPrim())
+        self.assertEqual((revolute.GetLowerLimitAttr().Get(), revolute.GetUpperLimitAttr().Get()), (-30, 45))
+        spring = UsdPhysics.DriveAPI(hinge.GetPrim(), "angular")
+        self.assertAlmostEqual(spring.GetStiffnessAttr().Get(), 5 * math.pi / 180, 6)  # by degree
+        self.assertEqual(spring.GetTargetPositionAttr().Get(), 10)
+        self.assertEqual(slider.GetBody0Rel().GetTargets(), [arm.GetPath()])
+        self.assertEqual(slider.GetBreakForceAttr().Get(), 500)
+        axis = Gf.Rotation(slider.GetLocalRot1Attr().Get()).TransformDir(Gf.Vec3d(0, 0, 1))
+        self.assertTrue(Gf.IsClose(axis, Gf.Vec3d(1, 0, 0), 1e-6))
+        motor = UsdPhysics.DriveAPI(slider.GetPrim(), "linear")
+        self.assertEqual((motor.GetTargetVelocityAttr().Get(), motor.GetMaxForceAttr().Get()), (0.5, 20))
+        self.assertGreater(UsdPhysics.LimitAPI(universal.GetPrim(), "rotY").GetLowAttr().Get(), 0)
+        self.assertEqual(UsdPhysics.DistanceJoint(rope.GetPrim()).GetMaxDistanceAttr().Get(), 1.5)
 
 
 class Surfaces(unittest.TestCase):

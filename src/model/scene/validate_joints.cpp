@@ -16,17 +16,14 @@ constexpr double kDistanceRounding = 1e-6;
 // Of a joint that has one: [degrees] of a line, else [m].
 struct JointCoordinate {
     double start;
-    Limit limits;  // of both limits
-    Limit goals;   // of where a spring rests, or a motor goes
+    Limit range;  // of limits, of where a spring rests, and of where a motor goes
 };
 
 std::optional<JointCoordinate> coordinate_of(const AttachmentDescription& attachment) {
-    if (std::holds_alternative<AttachedLine>(attachment.where))
-        return JointCoordinate{0.0, kHalfTurn, kAnyNumber};
-    if (std::holds_alternative<AttachedRail>(attachment.where))
-        return JointCoordinate{0.0, kAnyNumber, kAnyNumber};
+    if (std::holds_alternative<AttachedLine>(attachment.where)) return JointCoordinate{0.0, kHalfTurn};
+    if (std::holds_alternative<AttachedRail>(attachment.where)) return JointCoordinate{0.0, kAnyNumber};
     if (const auto* distance = std::get_if<AttachedDistance>(&attachment.where))
-        return JointCoordinate{glm::distance(distance->from, distance->to), kNotNegative, kNotNegative};
+        return JointCoordinate{glm::distance(distance->from, distance->to), kNotNegative};
     return {};
 }
 
@@ -66,8 +63,7 @@ void check_universal(const ValueChecks& checks, const FieldPath& field, const At
 
 void check_limits(const ValueChecks& checks, const FieldPath& field, const glm::dvec2& limits,
                   const JointCoordinate& coordinate) {
-    for (std::size_t k = 0; k < 2; ++k)
-        checks.check(field[k], limits[static_cast<int>(k)], coordinate.limits);
+    for (std::size_t k = 0; k < 2; ++k) checks.check(field[k], limits[static_cast<int>(k)], coordinate.range);
     if (limits.x > limits.y) checks.fail(field, text_of(limits), "the first must not be above the second");
     const double start = coordinate.start, tolerance = kDistanceRounding * start;
     if (limits.x > start + tolerance || limits.y < start - tolerance)
@@ -76,19 +72,19 @@ void check_limits(const ValueChecks& checks, const FieldPath& field, const glm::
 }
 
 void check_joint_spring(const ValueChecks& checks, const FieldPath& field, const JointSpring& spring,
-                        const Limit& goals) {
+                        const Limit& range) {
     checks.check(field / "stiffness", spring.stiffness, kNotNegative);
     checks.check(field / "damping", spring.damping, kNotNegative);
-    checks.check(field / "rest", spring.rest, goals);
+    checks.check(field / "rest", spring.rest, range);
     if (spring.stiffness == 0.0 && spring.damping == 0.0)
         checks.fail(field, "", "needs a stiffness or a damping above 0");
 }
 
 // What is given from a time on, and then what the motor does, `now`.
 void check_stage(const ValueChecks& checks, const FieldPath& field, const MotorKeyframe& given,
-                 const Limit& goals, MotorKeyframe& now) {
+                 const Limit& range, MotorKeyframe& now) {
     checks.check(field / "speed", given.speed);
-    checks.check(field / "position", given.position, goals);
+    checks.check(field / "position", given.position, range);
     checks.check(field / "force", given.force, kNotNegative);
     if (given.speed) now.speed = given.speed;
     if (given.position) now.position = given.position;
@@ -103,10 +99,10 @@ void check_stage(const ValueChecks& checks, const FieldPath& field, const MotorK
 }
 
 void check_motor(const ValueChecks& checks, const FieldPath& field, const JointMotor& motor,
-                 const Limit& goals) {
+                 const Limit& range) {
     if (!motor.speed && !motor.position) checks.fail(field, "", "needs a speed or a position");
     MotorKeyframe now;
-    check_stage(checks, field, {0.0, motor.speed, motor.position, motor.force}, goals, now);
+    check_stage(checks, field, {0.0, motor.speed, motor.position, motor.force}, range, now);
     const FieldPath keyframes = field / "keyframes";
     for (std::size_t k = 0; k < motor.keyframes.size(); ++k) {
         const MotorKeyframe& key = motor.keyframes[k];
@@ -117,7 +113,7 @@ void check_motor(const ValueChecks& checks, const FieldPath& field, const JointM
                                     motor.keyframes[k - 1].time));
         if (!key.speed && !key.position && !key.force)
             checks.fail(keyframes[k], "", "needs a speed, a position or a force");
-        check_stage(checks, keyframes[k], key, goals, now);
+        check_stage(checks, keyframes[k], key, range, now);
     }
 }
 
@@ -152,9 +148,9 @@ void check_joint(const ValueChecks& checks, const FieldPath& field, const Attach
     if (attachment.limits && has_coordinate("limits", text_of(*attachment.limits)))
         check_limits(checks, field / "limits", *attachment.limits, *coordinate);
     if (attachment.spring && has_coordinate("spring", ""))
-        check_joint_spring(checks, field / "spring", *attachment.spring, coordinate->goals);
+        check_joint_spring(checks, field / "spring", *attachment.spring, coordinate->range);
     if (attachment.motor && has_coordinate("motor", ""))
-        check_motor(checks, field / "motor", *attachment.motor, coordinate->goals);
+        check_motor(checks, field / "motor", *attachment.motor, coordinate->range);
 }
 
 }  // namespace gelatin

@@ -28,6 +28,7 @@ struct AnimationSettings {
     double frame_rate = 60.0;       ///< of the simulation [1/s]
     std::vector<glm::vec3> colors;  ///< of objects without materials, linear RGB, shape [Model::objects]
     Axis up = Axis::y;              ///< of the scene
+    std::vector<AttachmentDescription> attachments = {};  ///< of the scene
 };
 
 /// The endings of files for make_animation_file, with their points.

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
 #include "core/file.h"
 #include "core/file_writer.h"
 #include "gelatin/version.h"
+#include "sim/animation/usd_joints.h"
 
 namespace gelatin {
 namespace {
@@ -122,8 +124,19 @@ void UsdFile::append_object(std::size_t o, const std::string& name, const std::v
     const bool has_material = object.parts.size() == 1 && object.parts[0].material != SurfaceLook::kNone;
     std::string text =
         fmt::format("    def Mesh {} (\n        displayName = {}\n", quoted(name), quoted(object.name));
-    if (!surface_.look.is_empty()) text += "        prepend apiSchemas = [\"MaterialBindingAPI\"]\n";
+    std::vector<std::string> schemas;
+    if (!surface_.look.is_empty()) schemas.emplace_back("\"MaterialBindingAPI\"");
+    if (model_.objects[o].is_rigid) {
+        schemas.emplace_back("\"PhysicsRigidBodyAPI\"");
+        schemas.emplace_back("\"PhysicsMassAPI\"");
+    }
+    if (!schemas.empty())
+        text += fmt::format("        prepend apiSchemas = [{}]\n", fmt::join(schemas, ", "));
     text += "    )\n    {\n        uniform token subdivisionScheme = \"none\"\n";
+    // Frames move it.
+    if (model_.objects[o].is_rigid)
+        text += fmt::format("        bool physics:kinematicEnabled = true\n        float physics:mass = {}\n",
+                            model_.objects[o].mass);
     text += fmt::format("        int[] faceVertexCounts = {}\n",
                         joined(std::vector<std::uint32_t>(corners.size() / 3, 3)));
     text += fmt::format("        int[] faceVertexIndices = {}\n", joined(corners));
@@ -233,16 +246,20 @@ std::string UsdFile::head() const {
 void UsdFile::finish() {
     FileWriter out(file_);
     out.append(head());
-    std::set<std::string> taken{"materials"}, of_materials;
+    std::set<std::string> taken{"materials", "joints"}, of_materials;
     std::vector<std::string> materials;
     for (const SurfaceMaterial& material : surface_.look.materials)
         materials.push_back(identifier(material.name, of_materials));
+    std::map<std::string, std::string> rigid;  // paths by name
     for (std::size_t o = 0; o < surface_.objects.size(); ++o) {
-        append_object(o, identifier(surface_.objects[o].name, taken), materials, out);
+        const std::string name = identifier(surface_.objects[o].name, taken);
+        append_object(o, name, materials, out);
+        if (model_.objects[o].is_rigid || !model_.is_body(static_cast<std::uint32_t>(o)))
+            rigid.emplace(surface_.objects[o].name, "/simulation/" + name);
         if (model_.objects[o].tets.count > 0)
             append_tets(o, identifier(surface_.objects[o].name + "_tets", taken), out);
     }
-    out.append(materials_text(materials) + "}\n");
+    out.append(usd_joints(settings_.attachments, rigid) + materials_text(materials) + "}\n");
     for (std::size_t m = 0; m < materials.size(); ++m)
         if (const auto& image = surface_.look.materials[m].image)
             write_file(file_.parent_path() / image_name(m, materials[m]), *image);

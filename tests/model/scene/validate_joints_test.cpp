@@ -133,7 +133,9 @@ const JointRule kJointRules[] = {
     {"speed", kLineText, "motor = {speed = nan}", kLine, SETS(a.motor = {kNan}),
      ".motor.speed = nan: must be finite"},
     {"position", kLineText, "motor = {position = inf}", kLine, SETS(a.motor = {{}, kInfinite}),
-     ".motor.position = inf: must be finite"},
+     ".motor.position = inf: must be from -180 to 180"},
+    {"rest_beyond_half_a_turn", kLineText, "spring = {stiffness = 1, rest = 270}", kLine,
+     SETS(a.spring = {1, 0, 270}), ".spring.rest = 270: must be from -180 to 180"},
     {"position_of_a_distance", kDistanceText, "motor = {position = -1}", kDistance, SETS(a.motor = {{}, -1}),
      ".motor.position = -1: must be 0 or more"},
     {"speed_to_a_position", kLineText, "motor = {speed = -1, position = 2}", kLine, SETS(a.motor = {-1, 2}),
@@ -175,7 +177,7 @@ TEST_F(ValidateJoints, TakesSoundJoints) {
     EXPECT_EQ(error_of(BREAKS(add_joint(s, kRail).limits = {-1, 1})), "no error");
     EXPECT_EQ(error_of(BREAKS(add_joint(s, kRail).to = "")), "no error") << "in space";
     EXPECT_EQ(error_of(BREAKS(add_joint(s, kLine).to = "floor"; s.colliders.emplace_back().name = "floor";
-                              s.attachments[0].limits = {-180, 180}; s.attachments[0].spring = {0, 1, 270};
+                              s.attachments[0].limits = {-180, 180}; s.attachments[0].spring = {0, 1, 170};
                               s.attachments[0].motor = {-1, {}, 0, {{0, 1}, {1, {}, -5}, {2, 3, 4, 5}}})),
               "no error");
     EXPECT_EQ(error_of(BREAKS(add_joint(
