@@ -329,6 +329,23 @@ TEST(Joints, WhatIsAtADistanceMeets) {
     EXPECT_EQ(run.overlaps(), 0u);
 }
 
+// A door that overlaps its post, a collider, at the hinge.
+TEST(Joints, WhatIsJoinedMayOverlap) {
+    Scene scene = rigid_scene();
+    ColliderDescription post;
+    post.name = "post";
+    post.shape = BoxShape{{0.2, 2.0, 0.2}};
+    scene.colliders = {post};
+    scene.objects = {rigid_box("door", {1.0, 1.0, 0.05}, {0.55, 0.0, 0.0})};
+    scene.attachments = {{.object = "door",
+                          .to = "post",
+                          .where = AttachedLine{{0.08, -0.5, 0.0}, {0.08, 0.5, 0.0}},
+                          .motor = JointMotor{.speed = 60.0}}};
+    MeasuredRun run(scene);
+    run.advance(1.5);
+    EXPECT_NEAR(run.joint(0).position, kPi / 2.0, 0.01);
+}
+
 // What rests with a motor that holds still sleeps, and wakes when it has to move.
 TEST(Joints, SleepUntilAMotorMoves) {
     Scene scene = bar_on_hinge({0.0, -kGravity, 0.0});

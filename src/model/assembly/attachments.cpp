@@ -309,8 +309,8 @@ Attachment make_attachment(const AttachmentDescription& description, std::size_t
 
 JoinedBodies joined_bodies(const Scene& scene, const Model& model) {
     std::map<std::string_view, std::uint32_t> rigid;  // by name
-    for (std::uint32_t o = 0; o < model.body_count(); ++o)
-        if (model.objects[o].is_rigid) rigid.emplace(model.objects[o].name, o);
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o)
+        if (model.objects[o].is_rigid || !model.is_body(o)) rigid.emplace(model.objects[o].name, o);
     JoinedBodies joined;
     for (const AttachmentDescription& attachment : scene.attachments) {
         if (std::holds_alternative<AttachedDistance>(attachment.where)) continue;

@@ -29,7 +29,7 @@ double unit_of_coordinate(const AttachmentDescription& description);
 /// What the motor does in a step that begins then [s].
 MotorTarget motor_at(const AttachmentDescription& description, const JointMotor& motor, double time);
 
-/// Rigid bodies that attachments join, but for those at a distance.
+/// Rigid bodies that attachments join to each other or to colliders, but for those at a distance.
 JoinedBodies joined_bodies(const Scene& scene, const Model& model);
 
 /// Those of the scene. @throws InvalidInput as make_attachment

@@ -133,7 +133,7 @@ const JointRule kJointRules[] = {
     {"speed", kLineText, "motor = {speed = nan}", kLine, SETS(a.motor = {kNan}),
      ".motor.speed = nan: must be finite"},
     {"position", kLineText, "motor = {position = inf}", kLine, SETS(a.motor = {{}, kInfinite}),
-     ".motor.position = inf: must be from -180 to 180"},
+     ".motor.position = inf: must be finite"},
     {"rest_beyond_half_a_turn", kLineText, "spring = {stiffness = 1, rest = 270}", kLine,
      SETS(a.spring = {1, 0, 270}), ".spring.rest = 270: must be from -180 to 180"},
     {"position_of_a_distance", kDistanceText, "motor = {position = -1}", kDistance, SETS(a.motor = {{}, -1}),
