@@ -513,10 +513,7 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
     for (std::size_t r = 0; r < system_.rows.size(); ++r) {
         const ContactRow<Real>& row = system_.rows[r];
         const Vec3<Real> s = system_.slips()[r], force = row.force(s);
-        // Of bodies that are attached to each other, whose momenta go together, it is none from outside.
-        const bool is_outside = !row.is_tie() || row.object == kNoNode || !model_->is_body(row.object);
-        for (std::uint32_t k = 0; is_outside && k < row.count; ++k)
-            forces[row.nodes[k]] += row.weights[k] * force;
+        for (std::uint32_t k = 0; k < row.count; ++k) forces[row.nodes[k]] += row.weights[k] * force;
         const Vec3<Real> normal = row.pressing(s) * row.normal;
         if (force != Vec3<Real>(0)) acting_.push_back({row, normal, force - normal});
     }

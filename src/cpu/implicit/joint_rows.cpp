@@ -42,7 +42,7 @@ JointRows<Real>::JointRows(const Attachment& attachment, std::span<const Vec4<Re
     find_coordinate();
 }
 
-// What the row of the coordinate ties. Of a hinge both sides of it are together at the expected end.
+// What the row of the coordinate ties. At the expected end both sides of it are together, but for a distance.
 template <class Real>
 void JointRows<Real>::find_coordinate() {
     const double lever = joint_.lever;
@@ -54,10 +54,9 @@ void JointRows<Real>::find_coordinate() {
             offset_ = lever * end_;
             break;
         case Joint::Kind::slider:
-            // Near their centres: at points far from them what is pushed along z would seem to yield.
-            sides_ = {{1.0, 0.0, 0.0, joint_.own_center}, {1.0, 0.0, 0.0, joint_.other_center}};
+            sides_ = {{1.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, end_}};
             axis_ = other_end_.axes[2];
-            offset_ = joint_.other_center - joint_.own_center;
+            offset_ = end_;
             break;
         case Joint::Kind::universal: {
             const glm::dvec3 x = lever * own_end_.axes[0] * other_end_.axes;

@@ -132,11 +132,6 @@ private:
         made_.joint.other =
             made_.is_in_space ? CarriedFrame{.at = {frame.point, frame.axes[0], frame.axes[1], frame.axes[2]}}
                               : other_->carry_frame(frame);
-        const auto along_z = [&](const Carrier& carrier) {
-            return glm::dot(carrier.center() - frame.point, frame.axes[2]);
-        };
-        made_.joint.own_center = along_z(*own_);
-        if (!made_.is_in_space) made_.joint.other_center = along_z(*other_);
         made_.joint.lever = own_->size();
     }
 

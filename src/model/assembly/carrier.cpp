@@ -62,15 +62,11 @@ CarriedFrame Carrier::carry_frame(const Frame& frame) const {
     return carried;
 }
 
-glm::dvec3 Carrier::center() const {
+double Carrier::size() const {
     glm::dvec3 mean(0.0);
     for (int k = 0; k < 4; ++k) mean += 0.25 * mesh_.positions[frame_[k]];
-    return mean;
-}
-
-double Carrier::size() const {
     double sum = 0.0;
-    for (int k = 0; k < 4; ++k) sum += 0.25 * glm::distance(center(), mesh_.positions[frame_[k]]);
+    for (int k = 0; k < 4; ++k) sum += 0.25 * glm::distance(mean, mesh_.positions[frame_[k]]);
     return sum;
 }
 

@@ -39,8 +39,7 @@ public:
     CarriedFrame carry_point(const glm::dvec3& point) const;
     /// @pre is_rigid() and can_carry()
     CarriedFrame carry_frame(const Frame& frame) const;
-    /// The mean of the four nodes, and how far they are from it [m].
-    glm::dvec3 center() const;
+    /// How far the four nodes are from their mean [m].
     double size() const;
 
 private:

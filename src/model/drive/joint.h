@@ -41,7 +41,6 @@ struct Joint {
 
     Kind kind = Kind::none;
     CarriedFrame own, other;
-    double own_center = 0.0, other_center = 0.0;  ///< of sliders: of both sides, along z [m]
     double lever = 1.0;                           ///< about the size of the object [m]
     glm::dvec2 limits{-kNoLimit, kNoLimit};       ///< of the coordinate
     double stiffness = 0.0, damping = 0.0;        ///< of a spring
