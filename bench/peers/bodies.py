@@ -3,6 +3,7 @@
 import base64
 import re
 import tomllib
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -52,14 +53,17 @@ def volume(positions, tets):
     return np.einsum("ij,ij->", b - a, np.cross(c - a, d - a)) / 6
 
 
-def lumped_masses(scene):
+def lumped_masses_of(points, tets, density):
     """[n]: a quarter of each tet's mass at each of its nodes."""
-    masses = np.zeros(len(scene.positions))
-    for body in scene.bodies:
-        a, b, c, d = (scene.points(body)[body.tets[:, k]] for k in range(4))
-        quarter = scene.density * np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)) / 24
-        np.add.at(masses[body.nodes], body.tets, quarter[:, None])
+    masses = np.zeros(len(points))
+    a, b, c, d = (points[tets[:, k]] for k in range(4))
+    np.add.at(masses, tets, density * np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a))[:, None] / 24)
     return masses
+
+
+def lumped_masses(scene):
+    """[n], of all bodies."""
+    return np.concatenate([lumped_masses_of(scene.points(body), body.tets, scene.density) for body in scene.bodies])
 
 
 def equal_masses(scene):
@@ -68,9 +72,16 @@ def equal_masses(scene):
 
 
 def read_array(text, name, kind):
-    """A binary array of a VTU file: 8 bytes of its length, then the values, in base64."""
-    found = re.search(rf'<DataArray [^>]*Name="{name}"[^>]*>\s*([^<\s]*)', text)
-    return np.frombuffer(base64.b64decode(found[1])[8:], kind)
+    """A binary array of a VTU file, in base64: 8 bytes of its length, then the values; or blocks that zlib compressed."""
+    encoded = re.search(rf'<DataArray [^>]*Name="{name}"[^>]*>\s*([^<\s]*)', text)[1]
+    if 'compressor="vtkZLibDataCompressor"' not in text:
+        return np.frombuffer(base64.b64decode(encoded)[8:], kind)
+    # First the number of blocks, two sizes of a block, and the compressed size of each; these are encoded by themselves.
+    count = int(np.frombuffer(base64.b64decode(encoded[:12])[:8], "<u8")[0])
+    length = 4 * -(-8 * (3 + count) // 3)
+    ends = np.cumsum(np.frombuffer(base64.b64decode(encoded[:length]), "<u8")[3:]).astype(int)
+    blocks = base64.b64decode(encoded[length:])
+    return np.frombuffer(b"".join(zlib.decompress(blocks[first:end]) for first, end in zip([0, *ends], ends)), kind)
 
 
 def read_points(file):

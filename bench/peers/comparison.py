@@ -47,14 +47,14 @@ def export_scene(name, options):
     return file, folder / "frame_000000.vtu"
 
 
-def run_job(job, folder, time_limit):
+def run_job(job, folder, time_limit, program="worker.py"):
     """@return why the worker stopped early, or nothing"""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     (folder / "job.json").write_text(json.dumps(job), encoding="utf-8")
     with open(folder / "log.txt", "w", encoding="utf-8") as log:
         worker = subprocess.Popen(
-            [sys.executable, HERE / "worker.py", "job.json"],
+            [sys.executable, HERE / program, "job.json"],
             cwd=folder,
             stdout=log,
             stderr=log,

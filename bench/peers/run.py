@@ -6,6 +6,7 @@ head on, without gravity. All get the same tets, which Gelatin makes and exports
 on one thread, and its settings are at the top of its file in bench/peers/.
 
 The peers come from PyPI, into a virtual environment in the work folder; bench/peers/requirements.txt has their versions.
+With --joints: scenes/grab.toml, a gripper that carries a soft ball, and scenes/car.toml, a car on soft tyres (jointed.py).
 A peer that cannot be installed, fails or does not end in time is listed with the reason, and the others still run.
 """
 
@@ -21,6 +22,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 PEERS = ["gelatin", "newton", "mujoco", "pybullet"]
 SCENES = ["A", "B"]
+JOINTED = ["grab", "car"]
 REQUIREMENTS = HERE / "requirements.txt"
 
 
@@ -53,8 +55,10 @@ def parse_arguments():
                         help="for the environment and the runs; build/peers")
     parser.add_argument("--gelatin", type=Path, default=ROOT / "build/release/bin/gelatin", metavar="PATH",
                         help="the program; build/release/bin/gelatin")
-    parser.add_argument("--peers", type=names(PEERS), default=PEERS, metavar="P,...", help=", ".join(PEERS))
-    parser.add_argument("--scenes", type=names(SCENES), default=SCENES, metavar="S,...", help="A, B")
+    parser.add_argument("--peers", type=names(PEERS), metavar="P,...", help=", ".join(PEERS))
+    parser.add_argument("--joints", action="store_true", help="the scenes grab and car, which have joints, in place of A and B")
+    parser.add_argument("--scenes", type=names(SCENES + JOINTED), metavar="S,...", help="A, B; with --joints grab, car")
+    parser.add_argument("--runs", type=positive, default=3, metavar="N", help="with --joints: of each engine, by turns; 3")
     parser.add_argument("--frames", type=positive, metavar="N", help="at most N frames instead of 150 (A) and 120 (B)")
     parser.add_argument("--time-limit", type=positive, default=600, metavar="S",
                         help="for each peer and scene, loading included [s]; 600. What was done until then counts")
@@ -63,6 +67,12 @@ def parse_arguments():
     parser.add_argument("--reuse", action="store_true", help="do not repeat runs that the work folder has")
     parser.add_argument("--check", action="store_true", help="only test the counter of crossings")
     options = parser.parse_args()
+    options.peers = options.peers or [peer for peer in PEERS if peer != "pybullet" or not options.joints]
+    options.scenes = options.scenes or (JOINTED if options.joints else SCENES)
+    wrong = [name for name in options.scenes if (name in JOINTED) != options.joints]
+    wrong += ["pybullet"] if options.joints and "pybullet" in options.peers else []
+    if wrong:
+        parser.error(f"{wrong[0]} is {'not for' if options.joints else 'only for'} --joints")
     options.work, options.gelatin = options.work.resolve(), options.gelatin.resolve()
     if not options.check and not os.access(options.gelatin, os.X_OK):
         parser.error(f"--gelatin {options.gelatin}: there is no such program; build it with scripts/build")
@@ -98,9 +108,11 @@ def main():
             sys.exit(f"run.py: error: numpy: {problem}")
         os.execv(python, [str(python), str(Path(__file__).resolve()), *sys.argv[1:]])
 
-    import comparison  # needs numpy, which only the environment has
+    # They need numpy, which only the environment has.
+    import comparison
+    import jointed
 
-    comparison.compare(options, lambda package: install(python, package))
+    (jointed if options.joints else comparison).compare(options, lambda package: install(python, package))
 
 
 if __name__ == "__main__":

@@ -26,6 +26,9 @@ class PeersTest(unittest.TestCase):
         self.refused("--time-limit", "soon", because="--time-limit")
         self.refused("--gelatin", "/nowhere/gelatin", because="/nowhere/gelatin: there is no such program")
         self.refused("--report", "/nowhere/peers.md", because="/nowhere/peers.md: there is no such folder")
+        self.refused("--scenes", "grab", because="grab is only for --joints")
+        self.refused("--joints", "--scenes", "A", because="A is not for --joints")
+        self.refused("--joints", "--peers", "pybullet", because="pybullet is not for --joints")
         self.refused("--threads", "2", because="--threads")
 
 
