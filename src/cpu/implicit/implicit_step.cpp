@@ -247,6 +247,7 @@ bool ImplicitStep<Real>::is_torn(bool limits) {
             if (limits) d = mean + most / found * (d - mean);
         }
     });
+    if (is_torn && limits) system_.find_slips();
     return is_torn && !limits;
 }
 

@@ -96,6 +96,11 @@ void StepSystem<Real>::index_rows() {
 }
 
 template <class Real>
+void StepSystem<Real>::find_slips() {
+    for_each_index(rows.size(), [&](std::size_t r) { slips_[r] = slip<Real>(rows[r], displacements); });
+}
+
+template <class Real>
 std::vector<Vec3<Real>> StepSystem<Real>::elastic_forces() {
     Field forces(displacements.size(), Vec3<Real>(0));
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {

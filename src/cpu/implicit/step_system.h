@@ -52,6 +52,8 @@ public:
     void solve(std::span<const std::uint32_t> islands_of_bodies);
     /// s of rows, as they were found: by displacements, which are rounded, ties would exert other forces.
     std::span<const Vec3<Real>> slips() const { return slips_; }
+    /// By displacements, after these were changed.
+    void find_slips();
     /// Of elements, at the displacements [N], shape [nodes]; 0 of bodies asleep.
     std::vector<Vec3<Real>> elastic_forces();
 

@@ -54,9 +54,9 @@ struct AttachmentForce {
     double coordinate = 0.0, speed = 0.0;  ///< and how fast it changes
 };
 
-/// Objects that an attachment joins, rigid bodies or one and a collider, but for one at a distance, broken or not, the first with the lower
-/// number. They do not meet each other: links of a chain or an arm may overlap at their joint, and nothing
-/// there yields.
+/// Objects that an attachment joins, rigid bodies or one and a collider, but for one at a distance, broken or
+/// not, the first with the lower number. They do not meet each other: links of a chain or an arm may overlap
+/// at their joint, and nothing there yields.
 using JoinedBodies = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 inline bool are_joined(const JoinedBodies& joined, std::uint32_t a, std::uint32_t b) {

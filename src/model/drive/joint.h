@@ -41,11 +41,11 @@ struct Joint {
 
     Kind kind = Kind::none;
     CarriedFrame own, other;
-    double lever = 1.0;                           ///< about the size of the object [m]
-    glm::dvec2 limits{-kNoLimit, kNoLimit};       ///< of the coordinate
-    double stiffness = 0.0, damping = 0.0;        ///< of a spring
-    double rest = 0.0;                            ///< of the spring; of a distance that is kept, too
-    bool is_kept = false;                         ///< the coordinate stays at `rest`
+    double lever = 1.0;                      ///< about the size of the object [m]
+    glm::dvec2 limits{-kNoLimit, kNoLimit};  ///< of the coordinate
+    double stiffness = 0.0, damping = 0.0;   ///< of a spring
+    double rest = 0.0;                       ///< of the spring; of a distance that is kept, too
+    bool is_kept = false;                    ///< the coordinate stays at `rest`
 
     bool has_coordinate() const { return kind != Kind::none && kind != Kind::universal; }
 };

@@ -73,6 +73,7 @@ Overlays everything() {
     all.contact_forces = ForceArrows{};
     all.objects = true;
     all.wireframe = true;
+    all.attachments = true;
     return all;
 }
 
@@ -89,6 +90,7 @@ std::vector<Overlays> kinds_of_overlays() {
     kinds[8].objects = kinds[8].wireframe = true;
     kinds.emplace_back().color_map = ColorMap{Quantity::pressure, {}};
     kinds.emplace_back().contact_forces = ForceArrows{};
+    kinds.emplace_back().attachments = true;
     kinds.push_back(everything());
     return kinds;
 }
@@ -161,6 +163,12 @@ void contact(Scene& scene) {
 void contact_apart(Scene& scene) {
     scene.collision.response = CollisionResponse::contact;
     scene.objects[1].position = {0.1, 3.0, 0.0};
+}
+
+void attached(Scene& scene) {
+    contact_apart(scene);
+    scene.attachments.push_back(
+        {.object = scene.objects[1].name, .where = AttachedPoint{scene.objects[1].position}});
 }
 
 // Bodies that nothing moves, for long enough to sleep.
@@ -276,6 +284,7 @@ std::vector<ShortRun> short_runs() {
         {"contact, volume term", both(contact, volume_term), pull},
         {"contact, neo-Hookean", both(contact, neo_hookean)},
         {"contact, apart", contact_apart, start_again, true},
+        {"attached", attached, start_again, true},
         {"contact, asleep", at_rest, fall_asleep},
         {"the solve of an implicit step", nothing, [](Simulator&) { run_implicit_programs(); }},
         {"drawn from the CPU", nothing, start_again, true, Backend::cpu},
