@@ -95,11 +95,12 @@ void EnergyAccount<Real>::find_contacts(const Step& step) {
         const Vec3<Real> s = slip<Real>(row, step.displacements);
         const auto start = static_cast<double>(row.energy(Vec3<Real>(0))),
                    end = static_cast<double>(row.energy(s));
-        // What carries a load is stiff: as places are rounded, so is what it holds.
-        const glm::dvec3 place(step.current.positions[row.nodes[0]]);
-        const double rounding = row.is_tie() ? tuning::kEnergyRounding * glm::length(place) *
-                                                   static_cast<double>(glm::length(row.force(s)))
-                                             : 0.0;
+        // Rigid bodies are tied so stiffly that, as places are rounded, so is what a load is held with.
+        const bool is_stiff = row.is_tie() && model_->objects[row.other].is_rigid;
+        const double rounding = is_stiff ? tuning::kEnergyRounding *
+                                               glm::length(glm::dvec3(step.current.positions[row.nodes[0]])) *
+                                               static_cast<double>(glm::length(row.force(s)))
+                                         : 0.0;
         const bool is_first = row.object != kNoNode && model_->is_body(row.object),
                    is_second = model_->is_body(row.other);
         const double share = is_first && is_second ? 0.5 : 1.0;

@@ -513,7 +513,8 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
     std::erase_if(acting_, [&](const Acting& acting) { return !is_asleep(acting.row); });
     for (std::size_t r = 0; r < system_.rows.size(); ++r) {
         const ContactRow<Real>& row = system_.rows[r];
-        const Vec3<Real> s = row.is_tie() ? system_.slips()[r] : slip<Real>(row, d), force = row.force(s);
+        const bool is_joint = row.is_tie() && row.normal != Vec3<Real>(0);
+        const Vec3<Real> s = is_joint ? system_.slips()[r] : slip<Real>(row, d), force = row.force(s);
         for (std::uint32_t k = 0; k < row.count; ++k) forces[row.nodes[k]] += row.weights[k] * force;
         const Vec3<Real> normal = row.pressing(s) * row.normal;
         if (force != Vec3<Real>(0)) acting_.push_back({row, normal, force - normal});

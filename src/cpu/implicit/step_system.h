@@ -50,7 +50,7 @@ public:
     /// Rows come into the order of islands and pairs of objects. @pre rigid.begin was called
     /// @param islands_of_bodies of each body the least one of its island (Islands::of_bodies)
     void solve(std::span<const std::uint32_t> islands_of_bodies);
-    /// s of rows, as they were found: by displacements, which are rounded, ties would exert other forces.
+    /// s of rows, as they were found: by displacements, which are rounded, joints would exert other forces.
     std::span<const Vec3<Real>> slips() const { return slips_; }
     /// By displacements, after these were changed.
     void find_slips();

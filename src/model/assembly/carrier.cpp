@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "model/assembly/collider_surface.h"
+#include "model/collision/surface_parts.h"
 
 namespace gelatin {
 
