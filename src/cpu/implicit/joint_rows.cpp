@@ -22,7 +22,7 @@ double nearest_angle(double angle, double other) {
 template <class Real>
 JointRows<Real>::JointRows(const Attachment& attachment, std::span<const Vec4<Real>> positions,
                            std::span<const Vec3<Real>> expected)
-    : joint_(attachment.joint), positions_(positions) {
+    : joint_(attachment.joint) {
     own_ = frame_of(joint_.own, positions);
     other_ = frame_of(joint_.other, positions);
     const auto at_end = [&](const CarriedFrame& carried) {

@@ -47,7 +47,6 @@ private:
     void find_coordinate();
 
     const Joint& joint_;
-    std::span<const Vec4<Real>> positions_;
     Frame own_, other_, own_end_, other_end_;
     double start_ = 0.0, end_ = 0.0;  // the coordinate
     // Along n the row of the coordinate has scale() times it, but for an offset.
