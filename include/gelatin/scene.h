@@ -231,6 +231,44 @@ enum class WhenBlocked {
     stops,    ///< its time stands still, so that all that it has still to do follows later
 };
 
+/// A clip of a glTF file. It moves nodes, bones of skins and morph targets.
+struct AnimationClip {
+    std::string name = {};  ///< empty: the file's first
+};
+/// A sequence of files, one after the other, each with all vertices in the same order.
+struct AnimationFiles {
+    std::filesystem::path pattern;  ///< `*` stands for anything in the last part; taken in order of numbers
+    double rate = 24.0;             ///< files a second [1/s], > 0
+};
+/// The vertices at even times, in memory.
+struct AnimationFrames {
+    /// [m], shape [frames, vertices]
+    std::shared_ptr<const std::vector<std::vector<glm::dvec3>>> frames;
+    double rate = 24.0;  ///< frames a second [1/s], > 0
+};
+/// A program says where they are, while the scene runs: Simulator::set_collider_vertices.
+struct AnimationByProgram {};
+
+/// How the vertices of a shape move, before it is placed in the scene. Nothing breaks their surface.
+struct AnimationDescription {
+    std::variant<AnimationClip, AnimationFiles, AnimationFrames, AnimationByProgram> source = {};
+    /// When it begins [s], >= 0. Until then a clip's nodes go from where the file has them to where the clip
+    /// begins.
+    double start = 0.0;
+    double speed = 1.0;  ///< > 0
+    bool loop = false;   ///< begins again when it ends; otherwise it stays where it ends
+};
+
+/// Bones of a glTF file, which move nodes near them, each those to which it is nearest: joints of skins, or
+/// all nodes where there are none, with what is between them.
+struct SkeletonDescription {
+    std::filesystem::path file;       ///< .gltf or .glb; placed as the object is
+    double radius = 0.0;              ///< nodes nearer to a bone than this follow it [m], > 0
+    std::string clip = {};            ///< its name; empty: the file's first
+    double start = 0.0, speed = 1.0;  ///< as of AnimationDescription
+    bool loop = false;
+};
+
 /// A drag in addition to a handle's keyframes. The handle approaches it from the start on, no faster than its
 /// body can follow.
 struct DragDescription {
@@ -248,8 +286,11 @@ struct HandleDescription {
     std::vector<Keyframe> keyframes;  ///< in ascending order of time; the first is the start; none: a pin
     int line = 0;                     ///< in the scene file, for later messages
     DragDescription drag = {};        ///< in addition to the keyframes
-    /// With `stops` its release is later, too. Then it needs keyframes and CollisionResponse::contact.
+    /// With `stops` its release is later, too. Then it needs keyframes or a skeleton, and
+    /// CollisionResponse::contact.
     WhenBlocked when_blocked = WhenBlocked::goes_on;
+    /// In place of the region: its nodes are those near bones, which move them in addition to the keyframes.
+    std::optional<SkeletonDescription> skeleton = {};
 };
 
 /// The kinds of load.
@@ -356,8 +397,10 @@ struct ColliderDescription {
     glm::dvec3 surface_velocity{0.0};      ///< of the surface within itself, as of a belt [m/s]
     std::string name = {};  ///< in messages and statistics; empty: "collider 1", by its place in the scene
     double scale = 1.0;     ///< > 0, applied first
-    WhenBlocked when_blocked = WhenBlocked::goes_on;  ///< `stops` needs keyframes
+    WhenBlocked when_blocked = WhenBlocked::goes_on;  ///< `stops` needs keyframes or an animation
     std::optional<Axis> up = {};                      ///< as ObjectDescription::up; not for planes
+    /// In addition to keyframes; empty: its shape does not change.
+    std::optional<AnimationDescription> animation = {};
 };
 
 /// A ball joint. The point moves with what is there of both sides.

@@ -261,6 +261,14 @@ public:
     /// In the order of Scene::attachments; empty for recordings.
     std::vector<AttachmentStatus> attachments() const;
 
+    /// Where the vertices of a collider with AnimationByProgram are to be when a frame's time from now has
+    /// passed: they go there at even speed. Frames without another call leave them there.
+    /// @param collider its name @param vertices as those of the collider's shape: in its order, before scale,
+    ///   rotation, position and keyframes place it [m]; shape [vertices]
+    /// @throws InvalidInput if there is no such collider, and for a wrong number of vertices or ones that are
+    ///   not finite
+    void set_collider_vertices(const std::string& collider, const std::vector<glm::dvec3>& vertices);
+
     /// Called at the begin and at the end of each step, on its thread; empty: not any more. It may read and
     /// change the state, but not step. What it throws comes out of step(); if that is at the end, the step
     /// has been made.

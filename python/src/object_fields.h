@@ -45,7 +45,7 @@ template <>
 struct Fields<HandleDescription> {
     static constexpr const char* kClass = "Handle";
     static void visit(HandleDescription& h, auto&& field) {
-        auto& [region, pivot, interpolation, release, keyframes, line, drag, when_blocked] = h;
+        auto& [region, pivot, interpolation, release, keyframes, line, drag, when_blocked, skeleton] = h;
         field("region", region);
         field("pivot", pivot);
         field("interpolation", interpolation);
@@ -171,7 +171,7 @@ struct Fields<ColliderDescription> {
     static constexpr const char* kClass = "Collider";
     static void visit(ColliderDescription& c, auto&& field) {
         auto& [shape, position, rotation, friction, restitution, keyframes, interpolation, pivot,
-               surface_velocity, name, scale, when_blocked, up] = c;
+               surface_velocity, name, scale, when_blocked, up, animation] = c;
         field("shape", shape);
         field("position", position);
         field("rotation", rotation);

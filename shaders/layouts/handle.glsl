@@ -4,8 +4,13 @@ struct HandleNode {      // 32 bytes
     vec4  arm;           // from the handle's pivot at the start [m]; w: inverse mass once released [1/kg]
     uint  node;
     uint  handle;
-    uint  unused_0;
-    uint  unused_1;
+    uint  animated;      // of animated handles: its place among all nodes of these; otherwise kNone
+    uint  unused;
+};
+// How a node of an animated handle moves over one step.
+struct NodeMotion {      // 32 bytes
+    vec4  start;         // [m]
+    vec4  velocity;      // mean over the step [m/s]
 };
 // A handle over one step: its nodes start at center + map arm, with the velocity velocity + rate arm.
 struct HandleMotion {    // 128 bytes

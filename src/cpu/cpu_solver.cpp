@@ -46,7 +46,7 @@ template <class Real>
 void CpuSolver<Real>::advance(const Step& step) {
     if (!step.motions.empty()) {
         const Stage stage(timer_, "apply_kinematics");
-        apply_kinematics(step.motions);
+        apply_kinematics(step);
     }
     {
         const Stage stage(timer_, "advance_nodes");
@@ -56,8 +56,8 @@ void CpuSolver<Real>::advance(const Step& step) {
 }
 
 template <class Real>
-void CpuSolver<Real>::apply_kinematics(std::span<const HandleMotion> motions) {
-    cpu::apply_kinematics(*model_, motions, current_);
+void CpuSolver<Real>::apply_kinematics(const Step& step) {
+    cpu::apply_kinematics(*model_, step.motions, step.animated, current_);
 }
 
 template <class Real>

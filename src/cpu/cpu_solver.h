@@ -42,7 +42,7 @@ public:
 protected:
     CpuSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision);
 
-    virtual void apply_kinematics(std::span<const HandleMotion> motions);
+    virtual void apply_kinematics(const Step& step);
     /// Forces and integration, collisions with colliders included.
     virtual void advance_nodes(const Step& step) = 0;
 

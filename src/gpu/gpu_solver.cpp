@@ -42,7 +42,7 @@ void GpuSolver::advance(const Step& step) {
     StageTimer& timer = stage_timer();
     if (!step.motions.empty()) {
         const Stage stage(timer, "apply_kinematics");
-        apply_kinematics(step.motions);
+        apply_kinematics(step);
     }
     {
         const Stage stage(timer, "advance_nodes");
@@ -54,9 +54,9 @@ void GpuSolver::advance(const Step& step) {
     run_collision_stages(plan_, stages, step.size, previous_, current_, timer);
 }
 
-void GpuSolver::apply_kinematics(std::span<const HandleMotion> motions) {
+void GpuSolver::apply_kinematics(const Step& step) {
     if (!apply_kinematics_) apply_kinematics_.emplace(*model_);
-    apply_kinematics_->run(motions, current_);
+    apply_kinematics_->run(step.motions, step.animated, current_);
 }
 
 SumLoads* GpuSolver::loads_of(const Step& step) {

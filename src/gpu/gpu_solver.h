@@ -35,7 +35,7 @@ public:
     // No kernel finds forces.
     ContactForces contact_forces() override { return {}; }
     HoldingForces holding_forces() override { return {}; }
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) override { return {}; }
+    std::vector<std::uint32_t> held_up(std::span<const glm::dvec3> /*places*/) override { return {}; }
     State read_state() override;
     HostNodes host_nodes() const override { return {}; }
     void write_state(const State& state) override;
@@ -56,7 +56,7 @@ protected:
     /// Makes what is left of the step before, where a device was not given all of it at once: before nodes
     /// are read, or anything changes that the step depends on.
     virtual void complete() {}
-    virtual void apply_kinematics(std::span<const HandleMotion> motions);
+    virtual void apply_kinematics(const Step& step);
     /// Forces and integration, collisions with colliders included.
     virtual void advance_nodes(const Step& step) = 0;
 

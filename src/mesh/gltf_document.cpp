@@ -65,7 +65,12 @@ constexpr std::array<ComponentType, 6> kComponentTypes = {{{5120, 1, load<std::i
 
 std::size_t components_of(const Json& accessor) {
     const std::string type = accessor.value("type", "");
-    return type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 0;
+    return type == "SCALAR" ? 1
+           : type == "VEC2" ? 2
+           : type == "VEC3" ? 3
+           : type == "VEC4" ? 4
+           : type == "MAT4" ? 16
+                            : 0;
 }
 
 }  // namespace
@@ -242,7 +247,7 @@ GltfArray GltfDocument::read_accessor(std::size_t index) {
     const std::string what = fmt::format("accessors[{}]", index);
     const std::size_t components = components_of(accessor), count = whole_number(accessor, "count", what),
                       type = whole_number(accessor, "componentType", what);
-    if (components == 0) fail(what + ".type", {}, "must be SCALAR, VEC2, VEC3 or VEC4");
+    if (components == 0) fail(what + ".type", {}, "must be SCALAR, VEC2, VEC3, VEC4 or MAT4");
     const bool is_normalized = accessor.value("normalized", false), is_sparse = accessor.contains("sparse");
     GltfArray array{{}, count, components};
     if (accessor.contains("bufferView")) {

@@ -84,16 +84,24 @@ bool is_surface_file(const fs::path& file) {
     return find_format(file) != nullptr;
 }
 
-SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
-    const auto fail = [&](const std::string& problem) {
-        throw InvalidInput({file.string(), 0, {}, {}, problem});
-    };
+namespace {
+
+struct Read {
+    SurfacePolygons polygons;
+    bool repeats_vertices;
+};
+
+[[noreturn]] void fail(const fs::path& file, const std::string& problem) {
+    throw InvalidInput({file.string(), 0, {}, {}, problem});
+}
+
+Read read_polygons(const fs::path& file, Notes& notes) {
     const Format* const format = find_format(file);
-    if (format == nullptr && !fs::exists(file)) fail("no such file");
-    if (format == nullptr) fail("a surface file must end in .obj, .stl, .ply, .off, .gltf or .glb");
+    if (format == nullptr && !fs::exists(file)) fail(file, "no such file");
+    if (format == nullptr) fail(file, "a surface file must end in .obj, .stl, .ply, .off, .gltf or .glb");
     std::string content = read_file(file);
     if (content.starts_with("\xef\xbb\xbf")) content.erase(0, 3);  // a byte order mark
-    if (content.empty()) fail("is empty");
+    if (content.empty()) fail(file, "is empty");
     replace_line_ends(content);
     refuse_foreign_content(file, format->ending, content);
 
@@ -101,15 +109,28 @@ SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
     SurfacePolygons polygons = format->read(file, content, notes);
     if (polygons.sizes.empty()) {
         const std::string ignored = joined(std::span(notes).subspan(noted));
-        fail(fmt::format("has {} and no faces{}{}", counted(polygons.positions.size(), "vertex", "vertices"),
+        fail(file,
+             fmt::format("has {} and no faces{}{}", counted(polygons.positions.size(), "vertex", "vertices"),
                          ignored.empty() ? "" : "; ", ignored));
     }
-    SurfaceMesh mesh = triangulate(std::move(polygons), notes);
-    if (mesh.faces.empty()) fail("has no faces of three corners or more");
-    if (format->repeats_vertices) share_vertices(mesh);
+    return {std::move(polygons), format->repeats_vertices};
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> read_vertices(const fs::path& file) {
+    Notes notes;
+    return read_polygons(file, notes).polygons.positions;
+}
+
+SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
+    Read read = read_polygons(file, notes);
+    SurfaceMesh mesh = triangulate(std::move(read.polygons), notes);
+    if (mesh.faces.empty()) fail(file, "has no faces of three corners or more");
+    if (read.repeats_vertices) share_vertices(mesh);
     move_near_origin(mesh, notes);
     repair_surface(mesh, notes);
-    if (mesh.faces.empty()) fail("has no faces with an area");
+    if (mesh.faces.empty()) fail(file, "has no faces with an area");
     return mesh;
 }
 

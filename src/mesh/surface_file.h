@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec3.hpp>
+#include <vector>
 
 #include "mesh/surface_mesh.h"
 
@@ -16,6 +18,10 @@ bool is_surface_file(const std::filesystem::path& file);
 ///   indices out of range, counts that the file is too short for (checked before anything of that size is
 ///   allocated), or no faces at all.
 SurfaceMesh read_surface(const std::filesystem::path& file, Notes& notes);
+
+/// The vertices of such a file as it has them, before repairs.
+/// @throws InvalidInput as read_surface
+std::vector<glm::dvec3> read_vertices(const std::filesystem::path& file);
 
 /// Writes in the format of the extension of `file`: .obj, .stl (binary), .ply (binary), .off; completely or
 /// not at all.

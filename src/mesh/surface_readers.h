@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "mesh/surface_polygons.h"
+#include "mesh/vertex_motion.h"
 
 namespace gelatin {
 
@@ -23,7 +25,13 @@ SurfacePolygons read_stl(const std::filesystem::path& file, std::string_view con
 /// True for the content of an STL file, text or binary, whatever its name.
 bool seems_stl(const std::filesystem::path& file, std::string_view content);
 
-/// Triangles of the default scene, as its nodes place them. Text or binary, glTF 2.0.
+/// Triangles of the default scene, as its nodes, skins and morph targets place them without a clip. Text or
+/// binary, glTF 2.0.
 SurfacePolygons read_gltf(const std::filesystem::path& file, std::string_view content, Notes& notes);
+/// The vertices of read_gltf in the same order, moved by the clip of this name, or by the first.
+SkinnedVertices read_gltf_vertices(const std::filesystem::path& file, const std::string& clip);
+/// Its bones: a joint for each node that a skin uses, or for each node where there is no skin, without
+/// vertices.
+SkinnedVertices read_gltf_bones(const std::filesystem::path& file, const std::string& clip);
 
 }  // namespace gelatin

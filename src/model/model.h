@@ -53,6 +53,7 @@ struct RigidSurface {
     double restitution = 0.0;  ///< as of ColliderDescription
     glm::vec3 velocity{0.0f};  ///< of the surface within itself [m/s]
     bool moves = false;        ///< by a handle
+    bool deforms = false;      ///< its handle is animated
 };
 
 /// Half springs by node, in slices of 64 nodes (sliced ELLPACK; a slice is a work group). Pair p of node 64 s

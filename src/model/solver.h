@@ -109,6 +109,7 @@ struct Step {
     double size;  ///< [s]
     /// Of all handles over the step, shape [Model::handles]; empty: what they hold moves on as it does.
     std::span<const HandleMotion> motions = {};
+    std::span<const NodeMotion> animated = {};  ///< of the nodes of animated handles; with motions
     /// How much of each load acts, shape [Model::loads.spans]; empty: all of all.
     std::span<const float> load_factors = {};
     /// Of attachments, in their order; empty: none acts.
@@ -163,8 +164,8 @@ public:
 
     /// The handles with nodes that bodies keep from where their poses have them, each an index in
     /// Model::handles; none without CollisionResponse::contact. Waits for a
-    /// device. @param poses at present, shape [handles]
-    virtual std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) = 0;
+    /// device. @param places of what handles hold [m], shape [Model::handle_nodes]
+    virtual std::vector<std::uint32_t> held_up(std::span<const glm::dvec3> places) = 0;
 
     /// Waits for a device.
     virtual State read_state() = 0;

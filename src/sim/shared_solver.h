@@ -27,8 +27,8 @@ public:
     std::vector<AttachmentForce> attachment_forces() override { return host_.attachment_forces(); }
     ContactForces contact_forces() override { return host_.contact_forces(); }
     HoldingForces holding_forces() override { return host_.holding_forces(); }
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override {
-        return host_.held_up(poses);
+    std::vector<std::uint32_t> held_up(std::span<const glm::dvec3> places) override {
+        return host_.held_up(places);
     }
     State read_state() override { return host_.read_state(); }
     std::string memory() override { return host_.memory(); }
@@ -39,7 +39,7 @@ public:
     std::string device() const override { return GpuSolver::device() + " and " + host_.device(); }
 
 protected:
-    void apply_kinematics(std::span<const HandleMotion> motions) override { host_.apply_kinematics(motions); }
+    void apply_kinematics(const Step& step) override { host_.apply_kinematics(step); }
     void advance_nodes(const Step& step) override;
 
 private:

@@ -80,10 +80,10 @@ void Simulation::step() {
     gl::forget_state();  // the application may have used OpenGL since
     const auto host = keep_host_state_of_solver();
     const double size = clock.step_size();
-    const std::vector<HandleMotion> motions = move_held_nodes();
+    const HeldMotions held = move_held_nodes();
     const std::vector<float> factors = load_factors(model->loads, clock.time(), size);
     const std::vector<MotorTarget> targets = find_motors();
-    solver->advance({size, motions, factors, targets});
+    solver->advance({size, held.handles, held.animated, factors, targets});
     clock.count_step();
     ++revision;
     look_for_standstills();
@@ -98,13 +98,17 @@ void Simulation::step() {
 }
 
 // The work of a user's pull or drag is unknown, and the watch does not know of handles that are late.
-std::vector<HandleMotion> Simulation::move_held_nodes() {
+Simulation::HeldMotions Simulation::move_held_nodes() {
     const double time = clock.time(), size = clock.step_size();
-    if (!pulls.empty() || !forces.empty() || drags.is_under_way()) watch->note_hand(time + size);
+    if (!pulls.empty() || !forces.empty() || drags.is_under_way() || arms.is_under_way(time))
+        watch->note_hand(time + size);
     if (!drags.may_move()) return {};
     const HandleTimes times = handle_clocks.advance(time, size);
     if (handle_clocks.late_ones_act(times, size)) watch->note_hand(time + size);
-    return drags.advance(times, size);
+    const std::vector<Drag> before = drags.drags();
+    HeldMotions motions{drags.advance(times, size), {}};
+    motions.animated = arms.motions(before, drags.drags(), times, size);
+    return motions;
 }
 
 // The watch does not know how much energy they may give.
@@ -125,7 +129,7 @@ std::vector<std::uint32_t> Simulation::find_held_up() const {
     if (!drags.may_move() || !has_contact_forces()) return {};
     std::vector<HandlePose> poses;
     for (std::size_t h = 0; h < model->handles.size(); ++h) poses.push_back(pose_of(h));
-    return solver->held_up(poses);
+    return solver->held_up(arms.places(poses, handle_clocks.times(clock.time())));
 }
 
 void Simulation::look_for_standstills() {
@@ -141,6 +145,7 @@ void Simulation::reset() {
     if (!pins.empty()) rebuild(scene, unpinned, {});
     drags.restart();
     handle_clocks.restart();
+    arms.restart();
     motors.clear();
     attachments.resize(attachments_at_start);
     scene.attachments.resize(attachments_at_start);

@@ -55,7 +55,11 @@ struct Simulation final : SimulatorInternals::Impl {
 private:
     BackendSolver make_solver(const Scene& of, const std::shared_ptr<const Model>& from) const;
     void begin();
-    std::vector<HandleMotion> move_held_nodes();
+    struct HeldMotions {
+        std::vector<HandleMotion> handles;
+        std::vector<NodeMotion> animated;
+    };
+    HeldMotions move_held_nodes();
     std::vector<MotorTarget> find_motors();
     std::vector<std::uint32_t> find_held_up() const;
     void look_for_standstills();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gelatin/error.h"
+#include "model/drive/handle_animation.h"
 #include "sim/body_pose.h"
 #include "sim/simulation.h"
 
@@ -123,6 +124,29 @@ void Simulator::move_pull(std::size_t pull, const glm::dvec3& target) {
     const auto host = d.keep_host_state_of_solver();
     d.pulls[pull].target = target;
     d.solver->move_pull(pull, target);
+}
+
+void Simulator::set_collider_vertices(const std::string& collider, const std::vector<glm::dvec3>& vertices) {
+    Simulation& d = impl_->simulation();
+    const std::vector<Handle>& handles = d.model->handles;
+    const auto found = std::find_if(handles.begin(), handles.end(), [&](const Handle& handle) {
+        return !d.model->is_body(handle.object) && d.model->objects[handle.object].name == collider &&
+               handle.animation && !handle.animation->motion;
+    });
+    if (found == handles.end())
+        throw InvalidInput(fmt::format("there is no collider '{}' that a program moves", collider));
+    if (vertices.size() != found->animation->vertex_count)
+        throw InvalidInput(fmt::format("collider '{}': {} vertices: its shape has {}", collider,
+                                       vertices.size(), found->animation->vertex_count));
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        const glm::dvec3& p = vertices[v];
+        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+        throw InvalidInput(fmt::format("collider '{}': vertices[{}] = [{}, {}, {}]: must be finite", collider,
+                                       v, p.x, p.y, p.z));
+    }
+    const auto handle = static_cast<std::size_t>(found - handles.begin());
+    const double now = d.time_of(handle);
+    d.arms.move(handle, vertices, now, now + d.scene.simulation.frame_time());
 }
 
 void Simulator::drag(std::size_t held, const Drag& target) {

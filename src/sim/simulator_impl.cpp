@@ -16,7 +16,8 @@ Simulator::Impl::Impl(const Scene& of, std::shared_ptr<const Model> from, const 
       model(std::move(from)),
       clock(of.simulation.frame_time(), substeps),
       drags(model),
-      handle_clocks(model) {
+      handle_clocks(model),
+      arms(model) {
     scene.collision.response = of.collision.response_with(of.simulation.solver);
     watch.emplace(scene, model, substeps);
 }
@@ -36,9 +37,12 @@ const ModelObject& Simulator::Impl::body(std::size_t object) const {
         fmt::format("there is no object {}: there are {}, from 0", object, model->body_count()));
 }
 
+double Simulator::Impl::time_of(std::size_t handle) const {
+    return clock.time() - handle_clocks.delays()[handle];
+}
+
 HandlePose Simulator::Impl::pose_of(std::size_t handle) const {
-    return pose_at(model->handles[handle], clock.time() - handle_clocks.delays()[handle],
-                   drags.drags()[handle]);
+    return pose_at(model->handles[handle], time_of(handle), drags.drags()[handle]);
 }
 
 const StateCopies& Simulator::Impl::copied_state() const {

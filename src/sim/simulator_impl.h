@@ -10,6 +10,7 @@
 #include "gl/context.h"
 #include "gl/host_state.h"
 #include "model/drive/drags.h"
+#include "model/drive/handle_arms.h"
 #include "model/drive/handle_clocks.h"
 #include "sim/backend_solver.h"
 #include "sim/checkpoint.h"
@@ -54,6 +55,7 @@ struct Simulator::Impl {
     RunClock clock;
     Drags drags;
     HandleClocks handle_clocks;
+    HandleArms arms;
     std::optional<Watch> watch;
     std::uint64_t revision = 0;  // of the state
     mutable StateCopies copies;
@@ -90,6 +92,7 @@ struct Simulator::Impl {
     bool has_contact_forces() const { return scene.has_contact(); }
     /// @throws InvalidInput if there is no such body
     const ModelObject& body(std::size_t object) const;
+    double time_of(std::size_t handle) const;  // its own at present [s]
     HandlePose pose_of(std::size_t handle) const;
     const StateCopies& copied_state() const;
     Checkpoint checkpoint() const;

@@ -96,9 +96,10 @@ std::vector<HeldNodes> Simulator::held_nodes() const {
         const Handle& handle = d.model->handles[h];
         if (!d.model->is_body(handle.object)) break;  // colliders come last
         const HandlePose pose = d.pose_of(h);
-        const bool is_released = !is_held(handle, time() - d.handle_clocks.delays()[h], step_size());
+        const bool is_released = !is_held(handle, d.time_of(h), step_size());
         all.push_back({handle.object, handle.is_pin, handle.index, handle.count, is_released,
-                       pose.place(handle.middle), pose.center, d.drags.drags()[h], d.drags.targets()[h]});
+                       pose.place(d.arms.middle(h, d.time_of(h))), pose.center, d.drags.drags()[h],
+                       d.drags.targets()[h]});
     }
     return all;
 }

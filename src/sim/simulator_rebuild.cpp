@@ -76,6 +76,7 @@ void Simulation::rebuild(const Scene& of, std::shared_ptr<const Model> from, std
     watch.emplace(scene, model, next_substeps);
     drags = std::move(next_drags);
     handle_clocks = std::move(next_clocks);
+    arms = HandleArms(model, arms.programmed());
     copies = {};
     solver->set_pulls(pulls);
     solver->set_forces(forces);

@@ -246,7 +246,10 @@ TEST_F(LayoutsTest, NodeSums) {
 
 TEST_F(LayoutsTest, Drives) {
     check("handle.glsl", "HandleNode", sizeof(HandleNode),
-          {FIELD(HandleNode, arm), FIELD(HandleNode, node), FIELD(HandleNode, handle)});
+          {FIELD(HandleNode, arm), FIELD(HandleNode, node), FIELD(HandleNode, handle),
+           FIELD(HandleNode, animated)});
+    check("handle.glsl", "NodeMotion", sizeof(NodeMotion),
+          {FIELD(NodeMotion, start), FIELD(NodeMotion, velocity)});
     check("handle.glsl", "HandleMotion", sizeof(HandleMotion),
           {FIELD(HandleMotion, center), FIELD(HandleMotion, map_x), FIELD(HandleMotion, map_y),
            FIELD(HandleMotion, map_z), FIELD(HandleMotion, velocity), FIELD(HandleMotion, rate_x),

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "model/drive/handle_arms.h"
 #include "model/drive/handles.h"
 #include "support/contact_scenes.h"
 
@@ -34,7 +35,8 @@ struct Press {
         for (int frame = 0; frame < 75; ++frame) {
             test::advance(solver, *model, frame);
             const double time = (frame + 1) * test::kFrame;
-            held_up = solver.held_up(std::vector<HandlePose>{pose_at(model->handles[0], time)});
+            const HandlePose pose = pose_at(model->handles[0], time);
+            held_up = solver.held_up(HandleArms(model).places({&pose, 1}, {&time, 1}));
             for (std::string& line :
                  standstills.look(*model, solver, held_up, std::vector<double>{0.0}, time))
                 lines.push_back(std::move(line));

@@ -3,12 +3,14 @@
 // tests/gpu/drive/apply_kinematics_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/handle.glsl"
+#include "layouts/packing.glsl"
 layout(local_size_x = 64) in;
 
 layout(std430) buffer Positions { vec4 positions[]; };    // an invocation reads and writes its own node
 layout(std430) buffer Velocities { vec4 velocities[]; };  // alone
 layout(std430) readonly buffer HandleNodes { HandleNode handle_nodes[]; };
 layout(std430) readonly buffer Motions { HandleMotion motions[]; };
+layout(std430) readonly buffer Animated { NodeMotion animated[]; };
 uniform uint held_count;
 
 void main() {
@@ -19,6 +21,11 @@ void main() {
     uint n = held.node;
     if (motion.center.w == 0.0) {
         positions[n].w = held.arm.w;
+        return;
+    }
+    if (held.animated != kNone) {
+        positions[n] = vec4(animated[held.animated].start.xyz, 0.0);
+        velocities[n].xyz = animated[held.animated].velocity.xyz;
         return;
     }
     vec3 arm = held.arm.xyz;

@@ -16,13 +16,20 @@ Vec3<Real> place(const glm::vec4& x, const glm::vec4& y, const glm::vec4& z, con
 }  // namespace
 
 template <class Real>
-void apply_kinematics(const Model& model, std::span<const HandleMotion> motions, Nodes<Real>& nodes) {
+void apply_kinematics(const Model& model, std::span<const HandleMotion> motions,
+                      std::span<const NodeMotion> animated, Nodes<Real>& nodes) {
     for (const HandleNode& held : model.handle_nodes) {
         const HandleMotion& motion = motions[held.handle];
         Vec4<Real>& position = nodes.positions[held.node];
         Vec4<Real>& velocity = nodes.velocities[held.node];
         if (motion.center.w == 0.0f) {
             position.w = static_cast<Real>(held.arm.w);
+            continue;
+        }
+        if (held.animated != packing::kNone) {
+            const NodeMotion& own = animated[held.animated];
+            position = Vec4<Real>(Vec3<Real>(own.start), Real(0));
+            velocity = Vec4<Real>(Vec3<Real>(own.velocity), velocity.w);
             continue;
         }
         const Vec3<Real> arm(held.arm);
@@ -32,7 +39,9 @@ void apply_kinematics(const Model& model, std::span<const HandleMotion> motions,
     }
 }
 
-template void apply_kinematics<float>(const Model&, std::span<const HandleMotion>, Nodes<float>&);
-template void apply_kinematics<double>(const Model&, std::span<const HandleMotion>, Nodes<double>&);
+template void apply_kinematics<float>(const Model&, std::span<const HandleMotion>,
+                                      std::span<const NodeMotion>, Nodes<float>&);
+template void apply_kinematics<double>(const Model&, std::span<const HandleMotion>,
+                                       std::span<const NodeMotion>, Nodes<double>&);
 
 }  // namespace gelatin::cpu

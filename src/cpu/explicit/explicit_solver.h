@@ -19,7 +19,7 @@ public:
 
     ContactForces contact_forces() override { return {}; }
     HoldingForces holding_forces() override { return {}; }
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) override { return {}; }
+    std::vector<std::uint32_t> held_up(std::span<const glm::dvec3> /*places*/) override { return {}; }
 
 protected:
     void advance_nodes(const Step& step) override;

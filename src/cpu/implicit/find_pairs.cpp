@@ -153,7 +153,7 @@ template <class Real>
 bool FindPairs<Real>::may_meet(std::uint32_t object, std::uint32_t other) const {
     if (other != object)
         return (model_->is_body(object) || model_->is_body(other)) && !are_joined(joined_, object, other);
-    return finds_own_ && !model_->objects[object].is_rigid &&
+    return finds_own_ && model_->is_body(object) && !model_->objects[object].is_rigid &&
            (!kept_.is_convex(object) || owns_[object].boxes.size() > 0);
 }
 

@@ -51,8 +51,7 @@ void ImplicitStep<Real>::set_attachments(const std::vector<Attachment>& attachme
     JoinedBodies joined;
     for (const Attachment& attachment : attachments)
         if (attachment.joint.kind != Joint::Kind::distance && attachment.other != kNoNode &&
-            rigid_bodies_.is_rigid(attachment.object) &&
-            (rigid_bodies_.is_rigid(attachment.other) || !model_->is_body(attachment.other)))
+            joins(*model_, attachment.object, attachment.other))
             joined.insert(std::minmax(attachment.object, attachment.other));
     pairs_.set_joined(std::move(joined));
 }

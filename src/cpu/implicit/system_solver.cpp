@@ -26,14 +26,14 @@ SystemSolver<Real>::SystemSolver(std::shared_ptr<const Model> model, const Colli
 // Velocities of held nodes are those of their handles; where they are is known better than by handles, which
 // bodies may have been in the way of.
 template <class Real>
-void SystemSolver<Real>::apply_kinematics(std::span<const HandleMotion> motions) {
+void SystemSolver<Real>::apply_kinematics(const Step& step) {
     const auto add_velocities = [&](double sign) {
         for (std::size_t h = 0; h < held_changes_.size(); ++h)
             held_changes_[h] += sign * glm::dvec3(current_.velocities[model_->handle_nodes[h].node]);
     };
     held_changes_.assign(model_->handle_nodes.size(), glm::dvec3(0.0));
     add_velocities(-1.0);
-    CpuSolver<Real>::apply_kinematics(motions);
+    CpuSolver<Real>::apply_kinematics(step);
     add_velocities(1.0);
 }
 
@@ -130,8 +130,8 @@ HoldingForces SystemSolver<Real>::holding_forces() {
 }
 
 template <class Real>
-std::vector<std::uint32_t> SystemSolver<Real>::held_up(std::span<const HandlePose> poses) {
-    return find_held_up<Vec4<Real>>(*model_, step_.surface().thicknesses, current_.positions, poses);
+std::vector<std::uint32_t> SystemSolver<Real>::held_up(std::span<const glm::dvec3> places) {
+    return find_held_up<Vec4<Real>>(*model_, step_.surface().thicknesses, current_.positions, places);
 }
 
 template <class Real>

@@ -28,12 +28,12 @@ public:
     /// What the linear systems of all steps so far have cost.
     const SolveCounts& solve_counts() const { return step_.solve_counts(); }
     HoldingForces holding_forces() override;
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override;
+    std::vector<std::uint32_t> held_up(std::span<const glm::dvec3> places) override;
     std::string memory() override;
     void write_state(const State& state) override;
 
 protected:
-    void apply_kinematics(std::span<const HandleMotion> motions) override;
+    void apply_kinematics(const Step& step) override;
     void advance_nodes(const Step& step) override;
 
     using CpuSolver<Real>::model_, CpuSolver<Real>::current_, CpuSolver<Real>::previous_,

@@ -17,12 +17,14 @@ public:
     explicit ApplyKinematics(const Model& model);
 
     /// Ends with the barrier for gathering the nodes as textures or storage.
-    void run(std::span<const HandleMotion> motions, const NodeBuffers& nodes);
+    void run(std::span<const HandleMotion> motions, std::span<const NodeMotion> animated,
+             const NodeBuffers& nodes);
 
 private:
     gl::Program program_;
     gl::Buffer<HandleNode> handle_nodes_;
     gl::Buffer<HandleMotion> motions_;
+    gl::Buffer<NodeMotion> animated_;
 };
 
 }  // namespace gelatin::gpu

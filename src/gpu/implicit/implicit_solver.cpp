@@ -126,11 +126,11 @@ ContactForces ImplicitSolver::contact_forces() {
     return size_ > 0.0 ? contacts_->forces() : ContactForceSums(*model_).take();
 }
 
-std::vector<std::uint32_t> ImplicitSolver::held_up(std::span<const HandlePose> poses) {
+std::vector<std::uint32_t> ImplicitSolver::held_up(std::span<const glm::dvec3> places) {
     if (!contacts_) return {};
     complete();
     const std::vector<glm::vec4> positions = read(current_.positions);
-    return find_held_up<glm::vec4>(*model_, surface_.thicknesses, positions, poses);
+    return find_held_up<glm::vec4>(*model_, surface_.thicknesses, positions, places);
 }
 
 HoldingForces ImplicitSolver::holding_forces() {

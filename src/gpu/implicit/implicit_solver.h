@@ -36,7 +36,7 @@ public:
 
     ContactForces contact_forces() override;
     HoldingForces holding_forces() override;
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) override;
+    std::vector<std::uint32_t> held_up(std::span<const glm::dvec3> places) override;
     std::string memory() override;
     void write_state(const State& state) override;
 

@@ -178,9 +178,10 @@ private:
             nodes = near_nodes();
             if (nodes.empty())
                 fail("to",
-                     fmt::format("'{}' has no node within {:.3g} m of '{}', half an edge of its surface: a "
-                                 "region can name some that are farther",
-                                 object.name, kNear * own_->edge(), description_.to));
+                     fmt::format(
+                         "'{}' has no node within '{}', or at most {:.3g} m from it, half an edge of its "
+                         "surface: a region can name some that are farther",
+                         object.name, description_.to, kNear * own_->edge()));
         }
         std::vector<glm::dvec3> points;
         std::vector<Tie> ties(nodes.size());
@@ -191,24 +192,19 @@ private:
         finish(points, std::move(ties), region != nullptr ? "region" : "to");
     }
 
-    // Of the object's surface, near what it is attached to.
+    // Of the object, near what it is attached to, or within it.
     std::vector<std::uint32_t> near_nodes() const {
         const double most = kNear * own_->edge();
-        std::optional<lattice::FaceTree> hull;
-        if (other_) hull.emplace(other_->hull());
         const auto is_near = [&](const glm::dvec3& p) {
-            if (hull) return hull->find_nearest(p, most).has_value();
+            if (other_) return other_->is_near(p, most);
             if (made_.plane == kNoNode) return false;
             const glm::dvec4 plane(model_.colliders[made_.plane].center);
             return glm::dot(glm::dvec3(plane), p) - plane.w <= most;
         };
-        const std::vector<glm::uvec2>& starts = model_.surface_parts.face_starts;
-        const Range& faces = model_.objects[made_.object].faces;
+        const Range own = model_.objects[made_.object].shape_nodes();
         std::vector<std::uint32_t> nodes;
-        for (std::uint32_t s = starts[faces.first].x; s < starts[faces.end()].x; ++s)
-            if (const std::uint32_t n = model_.surface_parts.nodes[s]; is_near(glm::dvec3(positions_[n])))
-                nodes.push_back(n);
-        std::sort(nodes.begin(), nodes.end());
+        for (std::uint32_t n = own.first; n < own.end(); ++n)
+            if (is_near(glm::dvec3(positions_[n]))) nodes.push_back(n);
         return nodes;
     }
 
@@ -228,11 +224,10 @@ private:
                     const std::vector<CarriedVertex>& carried, const char* key) const {
         if (carrier.is_rigid()) return;
         const double most = kFar * carrier.edge();
-        const lattice::FaceTree hull(carrier.hull());
         for (std::size_t p = 0; p < points.size(); ++p) {
             const glm::dvec4& w = carried[p].weights;
             const bool is_inside = std::min(std::min(w.x, w.y), std::min(w.z, w.w)) >= 0.0;
-            if (is_inside || hull.find_nearest(points[p], most)) continue;
+            if (is_inside || carrier.is_near(points[p], most)) continue;
             fail(key,
                  fmt::format(
                      "[{:.4g}, {:.4g}, {:.4g}] is farther than {:.3g} m from '{}', four edges of its surface",
@@ -303,14 +298,13 @@ Attachment make_attachment(const AttachmentDescription& description, std::size_t
 }
 
 JoinedBodies joined_bodies(const Scene& scene, const Model& model) {
-    std::map<std::string_view, std::uint32_t> rigid;  // by name
-    for (std::uint32_t o = 0; o < model.objects.size(); ++o)
-        if (model.objects[o].is_rigid || !model.is_body(o)) rigid.emplace(model.objects[o].name, o);
+    std::map<std::string_view, std::uint32_t> objects;  // by name
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o) objects.emplace(model.objects[o].name, o);
     JoinedBodies joined;
     for (const AttachmentDescription& attachment : scene.attachments) {
         if (std::holds_alternative<AttachedDistance>(attachment.where)) continue;
-        const auto object = rigid.find(attachment.object), other = rigid.find(attachment.to);
-        if (object != rigid.end() && other != rigid.end())
+        const auto object = objects.find(attachment.object), other = objects.find(attachment.to);
+        if (object != objects.end() && other != objects.end() && joins(model, object->second, other->second))
             joined.insert(std::minmax(object->second, other->second));
     }
     return joined;

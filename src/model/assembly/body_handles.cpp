@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/assembly/build_model.h"
+#include "model/assembly/make_animation.h"
 #include "model/drive/drags.h"
 #include "model/region.h"
 #include "model/transform.h"
@@ -33,9 +34,21 @@ double most_drag_speed(const Body& body, const std::vector<glm::dvec3>& position
     return std::min(speed / 3.0, kDragRate * diagonal_of(positions));
 }
 
-void append_handle(const HandleDescription& description, Handle handle,
+// How a skeleton moves nodes.
+std::shared_ptr<const HandleAnimation> animate(const BodySkeleton& skeleton,
+                                               const std::vector<std::uint32_t>& nodes,
+                                               const std::vector<glm::dvec3>& positions,
+                                               const glm::dvec3& pivot) {
+    std::vector<glm::dvec3> places;
+    for (const std::uint32_t n : nodes) places.push_back(positions[n]);
+    HandleAnimation animation = skeleton.hold(places).animation;
+    animation.offset -= pivot;
+    return std::make_shared<const HandleAnimation>(std::move(animation));
+}
+
+void append_handle(const HandleDescription& description, const BodySkeleton* skeleton, Handle handle,
                    const std::vector<glm::dvec3>& positions, std::uint32_t first_node, Model& model) {
-    std::vector<std::uint32_t> nodes = find_inside(description.region, positions);
+    std::vector<std::uint32_t> nodes = nodes_of(description, skeleton, positions);
     std::erase_if(nodes, [&](std::uint32_t n) { return model.positions[first_node + n].w == 0.0f; });
     glm::dvec3 center(0.0);
     for (const std::uint32_t n : nodes) center += positions[n] / static_cast<double>(nodes.size());
@@ -48,13 +61,14 @@ void append_handle(const HandleDescription& description, Handle handle,
     handle.count = nodes.size();
     handle.middle = center - handle.pivot;
     handle.drag = {description.drag.move, rotation_from_degrees(description.drag.turn)};
+    if (skeleton != nullptr) handle.animation = animate(*skeleton, nodes, positions, handle.pivot);
     const auto index = static_cast<std::uint32_t>(model.handles.size());
     for (const std::uint32_t n : nodes) {
         const std::uint32_t node = first_node + n;
         const glm::dvec3 arm = positions[n] - handle.pivot;
         handle.radius = std::max(handle.radius, glm::length(arm));
         glm::vec4& position = model.positions[node];
-        model.handle_nodes.push_back({glm::vec4(glm::vec3(arm), position.w), node, index, 0, 0});
+        model.handle_nodes.push_back({glm::vec4(glm::vec3(arm), position.w), node, index, kNoNode, 0});
         position.w = 0.0f;
         model.velocities[node] = glm::vec4(0.0f, 0.0f, 0.0f, model.velocities[node].w);
     }
@@ -63,6 +77,11 @@ void append_handle(const HandleDescription& description, Handle handle,
 
 }  // namespace
 
+std::vector<std::uint32_t> nodes_of(const HandleDescription& handle, const BodySkeleton* skeleton,
+                                    const std::vector<glm::dvec3>& positions) {
+    return skeleton != nullptr ? skeleton->hold(positions).nodes : find_inside(handle.region, positions);
+}
+
 void append_handles(const Body& body, const std::vector<glm::dvec3>& positions, std::uint32_t first_node,
                     Model& model) {
     if (body.handles.empty() && body.pins.empty()) return;
@@ -70,12 +89,13 @@ void append_handles(const Body& body, const std::vector<glm::dvec3>& positions, 
     handle.object = model.objects.size();
     handle.most_speed = most_drag_speed(body, positions);
     for (handle.index = 0; handle.index < body.handles.size(); ++handle.index)
-        append_handle(body.handles[handle.index], handle, positions, first_node, model);
+        append_handle(body.handles[handle.index], body.skeleton_of(handle.index), handle, positions,
+                      first_node, model);
     handle.is_pin = true;
     for (handle.index = 0; handle.index < body.pins.size(); ++handle.index) {
         HandleDescription rests;
         rests.region = body.pins[handle.index];
-        append_handle(rests, handle, positions, first_node, model);
+        append_handle(rests, nullptr, handle, positions, first_node, model);
     }
 }
 

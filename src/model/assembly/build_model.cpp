@@ -353,9 +353,16 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
     body.spin = glm::radians(object.spin);
     body.pins = object.pins;
     body.handles = object.handles;
+    std::vector<std::vector<std::uint32_t>> held;
+    for (const HandleDescription& handle : object.handles) {
+        body.skeletons.push_back(
+            handle.skeleton ? std::make_shared<const BodySkeleton>(*handle.skeleton, object, scene.up)
+                            : nullptr);
+        held.push_back(nodes_of(handle, body.skeletons.back().get(), body.mesh.positions));
+    }
     body.loads = object.loads;
     if (object.color) body.color = glm::vec3(*object.color);
-    check_regions(scene.file, object, body.mesh);
+    check_regions(scene.file, object, body.mesh, held);
     return body;
 }
 
@@ -396,6 +403,9 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
         if (has_skins) append_hull(model, model.objects.size() - 1, model.skin);
     }
     finish_skin(model, model.skin);
+    std::uint32_t animated = 0;
+    for (HandleNode& held : model.handle_nodes)
+        if (model.handles[held.handle].animation) held.animated = animated++;
     model.colliders = pack_colliders(colliders);
     model.gravity = glm::vec3(gravity);
     model.half_springs = pack_half_springs(model.node_count(), model.springs);

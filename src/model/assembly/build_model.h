@@ -5,6 +5,7 @@
 #include "gelatin/scene.h"
 #include "mesh/tet_mesh.h"
 #include "model/assembly/collider_surface.h"
+#include "model/assembly/make_animation.h"
 #include "model/assembly/object_mesh.h"
 #include "model/assembly/rigid_body.h"
 #include "model/model.h"
@@ -21,6 +22,7 @@ struct Body {
     glm::dvec3 spin{0.0};      ///< about the centre of mass [rad/s]
     std::vector<Region> pins;
     std::vector<HandleDescription> handles;
+    std::vector<std::shared_ptr<const BodySkeleton>> skeletons = {};  ///< of handles; empty: none has one
     std::vector<LoadDescription> loads;
     glm::vec3 color{-1.0f};  ///< linear RGB; negative: the renderer's palette
 
@@ -41,6 +43,10 @@ struct Body {
     /// What is drawn of it, by the indices of the mesh's nodes; null: the boundary of the tets.
     std::shared_ptr<const ShapeSkin> skin = {};
 
+    /// Null: the handle has a region.
+    const BodySkeleton* skeleton_of(std::size_t handle) const {
+        return handle < skeletons.size() ? skeletons[handle].get() : nullptr;
+    }
     bool is_rigid() const { return !rigid_masses.empty(); }
     bool has_springs() const { return !is_rigid() && material.model == MaterialModel::mass_spring; }
     bool has_neo_hookean_tets() const { return !is_rigid() && material.model != MaterialModel::mass_spring; }

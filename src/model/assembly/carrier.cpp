@@ -4,10 +4,31 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 
+#include "mesh/tet_tree.h"
 #include "model/collision/surface_parts.h"
 
 namespace gelatin {
+namespace {
+
+bool deforms(const Model& model, std::uint32_t object) {
+    return !model.is_body(object) && model.surfaces[object - model.body_count()].deforms;
+}
+
+TetMesh mesh_of(const Model& model, const ModelObject& object, std::span<const glm::vec4> positions) {
+    TetMesh mesh;
+    mesh.positions = positions_of_object(object, positions);
+    for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t)
+        mesh.tets.push_back(model.tets[t] - object.nodes.first);
+    for (std::uint32_t f = object.faces.first; f < object.faces.end(); ++f) {
+        const Face& face = model.faces[f];
+        mesh.faces.push_back(glm::uvec3(face.a, face.b, face.c) - object.nodes.first);
+    }
+    return mesh;
+}
+
+}  // namespace
 
 std::vector<glm::dvec3> positions_of_object(const ModelObject& object, std::span<const glm::vec4> positions) {
     const auto own = positions.subspan(object.nodes.first, object.nodes.count);
@@ -15,22 +36,26 @@ std::vector<glm::dvec3> positions_of_object(const ModelObject& object, std::span
 }
 
 Carrier::Carrier(const Model& model, std::uint32_t object, std::span<const glm::vec4> positions)
-    : object_(model.objects[object]), is_rigid_(object_.is_rigid || !model.is_body(object)) {
-    mesh_.positions = positions_of_object(object_, positions);
-    for (std::uint32_t t = object_.tets.first; t < object_.tets.end(); ++t)
-        mesh_.tets.push_back(model.tets[t] - object_.nodes.first);
-    for (std::uint32_t f = object_.faces.first; f < object_.faces.end(); ++f) {
-        const Face& face = model.faces[f];
-        mesh_.faces.push_back(glm::uvec3(face.a, face.b, face.c) - object_.nodes.first);
-    }
-    edge_ = median_edge(model, object, positions);
-    if (is_rigid_) find_frame();
+    : object_(model.objects[object]),
+      is_rigid_(object_.is_rigid || !(model.is_body(object) || deforms(model, object))),
+      is_surface_(!model.is_body(object)),
+      mesh_(mesh_of(model, object_, positions)),
+      edge_(median_edge(model, object, positions)),
+      hull_({mesh_.positions, mesh_.faces}),
+      winding_number_(hull_) {
+    if (is_rigid_ || is_surface_) find_frame();
+}
+
+bool Carrier::is_near(const glm::dvec3& point, double most) const {
+    return hull_.find_nearest(point, most) || std::abs(winding_number_(point)) > 0.5;
 }
 
 std::vector<CarriedVertex> Carrier::carry(const std::vector<glm::dvec3>& points) const {
     std::vector<CarriedVertex> carried;
     if (is_rigid_) {
         for (const glm::dvec3& point : points) carried.push_back(carry_by_frame(point));
+    } else if (is_surface_) {
+        for (const glm::dvec3& point : points) carried.push_back(carry_by_face(point));
     } else {
         carried = carry_surface({points, {}}, mesh_).vertices;
     }
@@ -73,7 +98,7 @@ double Carrier::size() const {
 bool Carrier::can_carry() const {
     const glm::dmat3 edges = frame_edges();
     const double size = glm::length(edges[0]);
-    return !is_rigid_ || std::abs(glm::determinant(edges)) > 1e-3 * size * size * size;
+    return !(is_rigid_ || is_surface_) || std::abs(glm::determinant(edges)) > 1e-3 * size * size * size;
 }
 
 void Carrier::find_frame() {
@@ -106,6 +131,28 @@ glm::dvec4 Carrier::weights_of(const glm::dvec3& vector) const {
 
 CarriedVertex Carrier::carry_by_frame(const glm::dvec3& point) const {
     return {frame_, glm::dvec4(1.0, 0.0, 0.0, 0.0) + weights_of(point - mesh_.positions[frame_.x])};
+}
+
+// A node that is not in the plane of the face says how the surface turns there. It counts with the distance
+// of the point from this plane over its own, h, and says the less the farther it is: so the one is best that
+// has the least squared distance over h.
+CarriedVertex Carrier::carry_by_face(const glm::dvec3& point) const {
+    const lattice::NearestPoint nearest = *hull_.find_nearest(point, std::numeric_limits<double>::infinity());
+    const glm::uvec3& face = mesh_.faces[hull_.sources()[nearest.face]];
+    const glm::dvec3 a = mesh_.positions[face.x];
+    const glm::dvec3 normal =
+        glm::normalize(glm::cross(mesh_.positions[face.y] - a, mesh_.positions[face.z] - a));
+    std::uint32_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t n = 0; n < mesh_.positions.size(); ++n) {
+        const glm::dvec3 from = mesh_.positions[n] - nearest.point;
+        const double cost = glm::dot(from, from) / std::abs(glm::dot(normal, from));
+        if (!(cost < least)) continue;
+        least = cost;
+        best = n;
+    }
+    const glm::uvec4 nodes(face, best);
+    return {nodes, barycentric(mesh_, nodes, point)};
 }
 
 }  // namespace gelatin

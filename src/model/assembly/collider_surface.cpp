@@ -11,6 +11,7 @@
 #include "mesh/lattice/face_tree.h"
 #include "mesh/lattice/solid_angles.h"
 #include "model/assembly/draw_surface.h"
+#include "model/assembly/make_animation.h"
 #include "model/collision/box_tree.h"
 #include "model/spring_packing.h"
 #include "model/transform.h"
@@ -21,10 +22,10 @@ namespace {
 constexpr std::uint32_t kMostSamples = 16;  // nodes of a body
 constexpr std::uint32_t kFacesInLeaf = 64;  // for a few look-ups, a tree that is built fast
 
-// Faces in the order of the tree over them, and nodes in the order of the faces.
-void arrange(SurfaceMesh& mesh) {
+// Faces in the order of the tree over them, and nodes in the order of the faces. @return what nodes were
+std::vector<std::uint32_t> arrange(SurfaceMesh& mesh) {
     arrange_faces(mesh.positions, mesh.faces);
-    std::vector<std::uint32_t> places(mesh.positions.size(), kNoNode);
+    std::vector<std::uint32_t> places(mesh.positions.size(), kNoNode), earlier;
     std::vector<glm::dvec3> positions;
     for (glm::uvec3& face : mesh.faces) {
         for (int k = 0; k < 3; ++k) {
@@ -32,11 +33,42 @@ void arrange(SurfaceMesh& mesh) {
             if (place == kNoNode) {
                 place = static_cast<std::uint32_t>(positions.size());
                 positions.push_back(mesh.positions[face[k]]);
+                earlier.push_back(face[k]);
             }
             face[k] = place;
         }
     }
     mesh.positions = std::move(positions);
+    return earlier;
+}
+
+// Gives a surface the vertices that its animation has at the start. @pre it is as its shape has it
+void animate(const AnimationDescription& description, const Shape& shape, ColliderSurface& surface) {
+    surface.animation = make_animation(description, shape, surface.mesh);
+    if (surface.animation->motion)
+        surface.mesh.positions = surface.animation->arms(surface.animation->motion->at(0.0));
+}
+
+// Places an animation with its collider, whose nodes were arranged.
+void place(const ColliderDescription& collider, const glm::dquat& rotation,
+           const std::vector<std::uint32_t>& earlier, HandleAnimation& animation) {
+    std::vector<std::uint32_t> sources;
+    for (const std::uint32_t node : earlier) sources.push_back(animation.sources[node]);
+    animation.sources = std::move(sources);
+    animation.map = collider.scale * glm::mat3_cast(rotation);
+    animation.offset = collider.position;
+}
+
+// Calls `make`, and says of which collider what it complains of is.
+template <class Make>
+void with_name(const Scene& scene, const std::string& name, const Make& make) {
+    try {
+        make();
+    } catch (const InvalidInput& error) {
+        const InputProblem& problem = error.problem();
+        throw InvalidInput(
+            {scene.file.string(), 0, fmt::format("{}.animation", name), problem.file, error.what()});
+    }
 }
 
 // Whether a body starts within it: sees the backs of its faces in more than half of all directions, as in a
@@ -61,6 +93,11 @@ void append_motion(const ColliderSurface& surface, const Range& nodes, Model& mo
     handle.interpolation = description.interpolation;
     handle.keyframes = description.keyframes;
     handle.stops = description.when_blocked == WhenBlocked::stops;
+    if (surface.animation) {
+        HandleAnimation animation = *surface.animation;
+        animation.offset -= handle.pivot;
+        handle.animation = std::make_shared<const HandleAnimation>(std::move(animation));
+    }
     handle.object = model.objects.size();
     handle.count = nodes.count;
     const auto index = static_cast<std::uint32_t>(model.handles.size());
@@ -68,7 +105,7 @@ void append_motion(const ColliderSurface& surface, const Range& nodes, Model& mo
         const glm::dvec3 arm = surface.mesh.positions[n - nodes.first] - handle.pivot;
         handle.radius = std::max(handle.radius, glm::length(arm));
         handle.middle += arm / static_cast<double>(nodes.count);
-        model.handle_nodes.push_back({glm::vec4(glm::vec3(arm), 0.0f), n, index, 0, 0});
+        model.handle_nodes.push_back({glm::vec4(glm::vec3(arm), 0.0f), n, index, kNoNode, 0});
     }
     model.handles.push_back(std::move(handle));
 }
@@ -112,9 +149,12 @@ std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene, ObjectMe
         surface.mesh = mesher.surface(*shape, surface.name);
         if (surface.mesh.faces.empty())
             throw InvalidInput({scene.file.string(), 0, surface.name + ".shape", {}, "has no faces"});
+        if (collider.animation)
+            with_name(scene, surface.name, [&] { animate(*collider.animation, *shape, surface); });
         const glm::dquat rotation = orientation_of(collider, scene.up);
         for (glm::dvec3& p : surface.mesh.positions) p = rotation * (collider.scale * p) + collider.position;
-        arrange(surface.mesh);
+        const std::vector<std::uint32_t> earlier = arrange(surface.mesh);
+        if (surface.animation) place(collider, rotation, earlier, *surface.animation);
         surfaces.push_back(std::move(surface));
     }
     return surfaces;
@@ -136,7 +176,7 @@ void append_surface(const ColliderSurface& surface, Model& model) {
         model.velocities.emplace_back(0.0f);
         model.masses.push_back(0.0f);
     }
-    const bool moves = !surface.description.keyframes.empty();
+    const bool moves = !surface.description.keyframes.empty() || surface.animation;
     if (moves) append_motion(surface, object.nodes, model);
     object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
     const std::uint32_t first = object.nodes.first;
@@ -148,7 +188,8 @@ void append_surface(const ColliderSurface& surface, Model& model) {
     append_box_tree(object.faces, model.face_trees);
     append_draw_surface(model.positions, model.faces, object.faces, kCreaseAngle, model.surface);
     model.surfaces.push_back({surface.description.friction, surface.description.restitution,
-                              glm::vec3(surface.description.surface_velocity), moves});
+                              glm::vec3(surface.description.surface_velocity), moves,
+                              surface.animation.has_value()});
     model.objects.push_back(std::move(object));
 }
 

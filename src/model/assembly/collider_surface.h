@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gelatin/scene.h"
 #include "mesh/surface_mesh.h"
 #include "model/assembly/object_mesh.h"
+#include "model/drive/handle_animation.h"
 #include "model/model.h"
 
 namespace gelatin {
@@ -15,6 +17,8 @@ struct ColliderSurface {
     std::string name;
     SurfaceMesh mesh;  ///< where the collider starts
     ColliderDescription description;
+    /// How its vertices move by themselves; empty: they do not. Arms are from the origin of the scene.
+    std::optional<HandleAnimation> animation = {};
 };
 
 /// A collider whose shape is upright by its rotation alone, in any scene.

@@ -17,6 +17,8 @@
 
 namespace gelatin {
 
+struct Model;
+
 /// Two points that are kept together, each a sum of nodes:
 ///   sum_k w_k x_k = at,
 /// where the weights of the object's nodes sum to 1, and those of the other side's to -1, if it has nodes.
@@ -54,9 +56,13 @@ struct AttachmentForce {
     double coordinate = 0.0, speed = 0.0;  ///< and how fast it changes
 };
 
-/// Objects that an attachment joins, rigid bodies or one and a collider, but for one at a distance, broken or
-/// not, the first with the lower number. They do not meet each other: links of a chain or an arm may overlap
-/// at their joint, and nothing there yields.
+/// Whether an attachment that does not keep a distance joins two objects, so that they do not meet each
+/// other, broken or not: rigid bodies, or one and a collider, as links of a chain or an arm may overlap at
+/// their joint, where nothing yields; or a body and a collider that changes its shape, as flesh and its
+/// bones.
+bool joins(const Model& model, std::uint32_t object, std::uint32_t other);
+
+/// Objects that are joined, the first with the lower number.
 using JoinedBodies = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 inline bool are_joined(const JoinedBodies& joined, std::uint32_t a, std::uint32_t b) {

@@ -14,7 +14,7 @@ namespace {
 
 // Whether it acts like a pin: then it does not matter which of them holds a node, until somebody drags one.
 bool rests(const HandleDescription& handle) {
-    return handle.keyframes.empty() && !handle.release;
+    return handle.keyframes.empty() && !handle.release && !handle.skeleton;
 }
 
 constexpr const char* kWorld = "(regions are in world coordinates at the start)";
@@ -34,18 +34,19 @@ public:
             fail(object_.pins_line, "pins", fmt::format("hold no node of the object {}", kWorld));
     }
 
-    void check_handles() {
+    void check_handles(const std::vector<std::vector<std::uint32_t>>& held) {
         for (std::size_t h = 0; h < object_.handles.size(); ++h) {
             const HandleDescription& handle = object_.handles[h];
-            const std::string field = fmt::format("handle[{}]", h);
-            const std::vector<std::uint32_t> nodes = find_inside(handle.region, mesh_.positions);
-            if (nodes.empty())
-                fail(handle.line, field + ".region", fmt::format("holds no node of the object {}", kWorld));
-            for (const std::uint32_t n : nodes) {
+            const std::string field = fmt::format("handle[{}]", h),
+                              where = field + (handle.skeleton ? ".skeleton" : ".region");
+            if (held[h].empty())
+                fail(handle.line, where,
+                     fmt::format("holds no node of the object {}",
+                                 handle.skeleton ? "(which it is placed with)" : kWorld));
+            for (const std::uint32_t n : held[h]) {
                 const Holder& other = holders_[n];
                 if (!other.name.empty() && !(other.rests && rests(handle))) {
-                    fail(handle.line, field + ".region",
-                         fmt::format("must not share a node with {}", other.name));
+                    fail(handle.line, where, fmt::format("must not share a node with {}", other.name));
                 }
                 holders_[n] = {field, rests(handle)};
             }
@@ -86,10 +87,11 @@ private:
 
 }  // namespace
 
-void check_regions(const std::filesystem::path& file, const ObjectDescription& object, const TetMesh& mesh) {
+void check_regions(const std::filesystem::path& file, const ObjectDescription& object, const TetMesh& mesh,
+                   const std::vector<std::vector<std::uint32_t>>& held) {
     RegionCheck check(file, object, mesh);
     check.check_pins();
-    check.check_handles();
+    check.check_handles(held);
     check.check_loads();
 }
 

@@ -51,7 +51,7 @@ Drag nearest_drag(const HandlePose& pose, std::span<const glm::dvec3> arms,
 Drags::Drags(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       has_moving_(std::any_of(model_->handles.begin(), model_->handles.end(), [](const Handle& handle) {
-          return !handle.keyframes.empty() || std::isfinite(handle.release);
+          return !handle.keyframes.empty() || handle.animation || std::isfinite(handle.release);
       })) {
     restart();
 }

@@ -2,13 +2,16 @@
 
 #include <cmath>
 
+#include "model/drive/handle_animation.h"
+
 namespace gelatin {
 namespace {
 
 // Whether the handle still moves after this time of its own, or releases its nodes.
 bool has_more_to_do(const Handle& handle, double time) {
     const bool will_release = std::isfinite(handle.release) && time < handle.release;
-    return will_release || (!handle.keyframes.empty() && time < handle.keyframes.back().time);
+    const bool is_animated = handle.animation && time < handle.animation->end();
+    return will_release || is_animated || (!handle.keyframes.empty() && time < handle.keyframes.back().time);
 }
 
 }  // namespace

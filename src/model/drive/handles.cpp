@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "model/drive/handle_animation.h"
 #include "model/model.h"
 #include "model/transform.h"
 
@@ -74,6 +75,7 @@ bool any_acts(const std::vector<Handle>& handles, double from, double until, dou
 bool acts(const Handle& handle, double from, double until, double step) {
     if (from > handle.release + step) return false;
     if (until > handle.release - step) return true;
+    if (handle.animation && from < handle.animation->end()) return true;
     if (handle.keyframes.empty()) return false;
     const bool begins = from <= 0.0;  // the first keyframe may be anywhere
     return begins || (handle.keyframes.front().time < until && handle.keyframes.back().time > from);

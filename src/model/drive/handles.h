@@ -3,6 +3,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,10 +13,12 @@
 
 namespace gelatin {
 
+struct HandleAnimation;
 struct Model;
 struct ModelObject;
 
-/// A group of nodes that moves together: see HandleDescription. A pin is one without keyframes.
+/// A group of nodes that moves together: see HandleDescription. A pin is one without keyframes. Skeletons and
+/// colliders that move are others.
 struct Handle {
     glm::dvec3 pivot{0.0};  ///< at the start [m]
     Interpolation interpolation = Interpolation::linear;
@@ -23,11 +26,14 @@ struct Handle {
     double release = std::numeric_limits<double>::infinity();  ///< [s]
     bool stops = false;  ///< its time stands still while bodies hold it up (WhenBlocked)
 
-    std::size_t object = 0;   ///< index in Model::objects
-    bool is_pin = false;      ///< from ObjectDescription::pins, otherwise from its handles
-    std::size_t index = 0;    ///< index there
-    std::size_t count = 0;    ///< number of nodes
-    glm::dvec3 middle{0.0};   ///< the nodes' centre at the start, relative to the pivot [m]
+    std::size_t object = 0;  ///< index in Model::objects
+    bool is_pin = false;     ///< from ObjectDescription::pins, otherwise from its handles
+    std::size_t index = 0;   ///< index there
+    std::size_t count = 0;   ///< number of nodes
+    glm::dvec3 middle{0.0};  ///< the nodes' centre at the start, relative to the pivot [m]
+    /// Moves its nodes beside the keyframes; null: arms stay as they are.
+    std::shared_ptr<const HandleAnimation> animation = {};
+
     double radius = 0.0;      ///< largest distance of a node from the pivot at the start [m]
     Drag drag;                ///< the drag that it approaches from the start on
     double most_speed = 0.0;  ///< largest speed of a node in a drag [m/s], > 0

@@ -13,18 +13,18 @@ namespace gelatin {
 
 /// The handles with nodes that are farther from where their poses have them than contacts reach, each an
 /// index in Model::handles. @param thicknesses of objects [m] @param positions w: inverse mass, shape [nodes]
-/// @param poses shape [handles]
+/// @param places where handles have them [m], shape [Model::handle_nodes]
 template <class Position>
 std::vector<std::uint32_t> find_held_up(const Model& model, std::span<const double> thicknesses,
                                         std::span<const Position> positions,
-                                        std::span<const HandlePose> poses) {
+                                        std::span<const glm::dvec3> places) {
     const double reach = *std::max_element(thicknesses.begin(), thicknesses.end());
-    std::vector<std::uint8_t> are_late(poses.size());
-    for (const HandleNode& held : model.handle_nodes) {
+    std::vector<std::uint8_t> are_late(model.handles.size());
+    for (std::size_t h = 0; h < places.size(); ++h) {
+        const HandleNode& held = model.handle_nodes[h];
         const Position& position = positions[held.node];
         if (position.w != 0) continue;  // it is released
-        const glm::dvec3 place = poses[held.handle].place(glm::dvec3(held.arm));
-        if (glm::distance(place, glm::dvec3(position)) > reach) are_late[held.handle] = 1;
+        if (glm::distance(places[h], glm::dvec3(position)) > reach) are_late[held.handle] = 1;
     }
     std::vector<std::uint32_t> handles;
     for (std::uint32_t h = 0; h < are_late.size(); ++h)

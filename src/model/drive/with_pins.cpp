@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/drive/drags.h"
+#include "model/spring_packing.h"
 
 namespace gelatin {
 namespace {
@@ -41,7 +42,8 @@ void append_pin(const AddedPin& pin, std::size_t index, Model& model) {
         handle.radius = std::max(handle.radius, glm::length(arm));
         glm::vec4& position = model.positions[pin.nodes[k]];
         const auto number = static_cast<std::uint32_t>(model.handles.size());
-        model.handle_nodes.push_back({glm::vec4(glm::vec3(arm), position.w), pin.nodes[k], number, 0, 0});
+        model.handle_nodes.push_back(
+            {glm::vec4(glm::vec3(arm), position.w), pin.nodes[k], number, kNoNode, 0});
         position.w = 0.0f;
         glm::vec4& velocity = model.velocities[pin.nodes[k]];
         velocity = glm::vec4(0.0f, 0.0f, 0.0f, velocity.w);

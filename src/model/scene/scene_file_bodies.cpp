@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "model/scene/field_path.h"
+#include "model/scene/scene_file_animation.h"
 #include "model/scene/scene_file_copies.h"
 #include "model/scene/scene_file_drives.h"
 #include "model/scene/scene_file_region.h"
@@ -148,7 +149,7 @@ std::vector<ObjectDescription> read_object(TableReader& reader, const std::vecto
     if (const auto start = reader.table("start")) object.start = read_start(*start);
     object.pins_line = reader.line_of("pins");
     for (TableReader& pin : reader.tables("pins")) object.pins.push_back(read_region(pin));
-    for (TableReader& handle : reader.tables("handle")) object.handles.push_back(read_handle(handle));
+    for (TableReader& handle : reader.tables("handle")) object.handles.push_back(read_handle(handle, folder));
     reader.read("skin", object.skin);
     return read_copies_of(reader, object);
 }
@@ -193,6 +194,8 @@ ColliderDescription read_collider(TableReader& reader, const CollisionSettings& 
     collider.when_blocked = read_when_blocked(reader);
     if (reader.has("pivot")) reader.read("pivot", collider.pivot.emplace(0.0));
     reader.read("surface_velocity", collider.surface_velocity);
+    if (auto animation = reader.table("animation"))
+        collider.animation = read_animation(std::move(*animation), folder);
     reader.finish();
     return collider;
 }

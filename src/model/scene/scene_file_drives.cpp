@@ -1,6 +1,7 @@
 #include "model/scene/scene_file_drives.h"
 
 #include "model/scene/field_path.h"
+#include "model/scene/scene_file_animation.h"
 #include "model/scene/scene_file_region.h"
 
 namespace gelatin {
@@ -134,10 +135,14 @@ std::vector<Keyframe> read_keyframes(TableReader& reader) {
     return keyframes;
 }
 
-HandleDescription read_handle(TableReader reader) {
+HandleDescription read_handle(TableReader reader, const std::filesystem::path& folder) {
     HandleDescription handle;
     handle.line = reader.line();
-    handle.region = require_region(reader);
+    if (reader.require_one_of({"region", "skeleton"}) == "region") {
+        handle.region = read_region(*reader.table("region"));
+    } else {
+        handle.skeleton = read_skeleton(*reader.table("skeleton"), folder);
+    }
     if (reader.has("pivot")) reader.read("pivot", handle.pivot.emplace(0.0));
     handle.interpolation = read_interpolation(reader);
     reader.read("release", handle.release);

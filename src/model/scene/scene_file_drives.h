@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "gelatin/scene.h"
 #include "model/scene/scene_file_reader.h"
 
@@ -10,8 +12,8 @@ std::vector<Keyframe> read_keyframes(TableReader& reader);
 Interpolation read_interpolation(TableReader& reader);
 WhenBlocked read_when_blocked(TableReader& reader);
 
-/// An [[object.handle]] table, which it finishes.
-HandleDescription read_handle(TableReader reader);
+/// An [[object.handle]] table, which it finishes. @param folder of the scene's file
+HandleDescription read_handle(TableReader reader, const std::filesystem::path& folder);
 
 /// An [[object.load]] or [[rigid.load]] table, which it finishes.
 LoadDescription read_load(TableReader reader);

@@ -115,9 +115,39 @@ std::string list_of_tables(const std::vector<Item>& items) {
     return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-Table table_of(const HandleDescription& handle) {
+void add_timing(double start, double speed, bool loop, Table& table) {
+    table.add_unless(0.0, "start", start).add_unless(1.0, "speed", speed).add_unless(false, "loop", loop);
+}
+
+Table table_of(const AnimationDescription& animation, const std::filesystem::path& folder) {
     Table table;
-    table.add_text("region", table_of(handle.region).in_line()).add("pivot", handle.pivot);
+    if (const auto* clip = std::get_if<AnimationClip>(&animation.source)) table.add("clip", clip->name);
+    if (const auto* files = std::get_if<AnimationFiles>(&animation.source))
+        table.add("files", std::filesystem::proximate(files->pattern, folder).string())
+            .add("rate", files->rate);
+    if (std::holds_alternative<AnimationFrames>(animation.source))
+        throw InvalidInput("a scene with vertices in memory cannot be written: scene files name files");
+    if (std::holds_alternative<AnimationByProgram>(animation.source)) return table.add("by_program", true);
+    add_timing(animation.start, animation.speed, animation.loop, table);
+    return table;
+}
+
+Table table_of(const SkeletonDescription& skeleton, const std::filesystem::path& folder) {
+    Table table;
+    table.add("file", std::filesystem::proximate(skeleton.file, folder).string());
+    table.add("radius", skeleton.radius).add_unless(std::string(), "clip", skeleton.clip);
+    add_timing(skeleton.start, skeleton.speed, skeleton.loop, table);
+    return table;
+}
+
+Table table_of(const HandleDescription& handle, const std::filesystem::path& folder) {
+    Table table;
+    if (handle.skeleton) {
+        table.add_text("skeleton", table_of(*handle.skeleton, folder).in_line());
+    } else {
+        table.add_text("region", table_of(handle.region).in_line());
+    }
+    table.add("pivot", handle.pivot);
     if (handle.interpolation == Interpolation::smooth) table.add("interpolation", "smooth");
     table.add("release", handle.release);
     if (!handle.keyframes.empty()) table.add_text("keyframes", list_of_tables(handle.keyframes));
@@ -228,6 +258,7 @@ Table table_of(const ColliderDescription& collider, const std::filesystem::path&
     if (!collider.keyframes.empty()) table.add_text("keyframes", list_of_tables(collider.keyframes));
     if (collider.interpolation == Interpolation::smooth) table.add("interpolation", "smooth");
     if (collider.when_blocked == WhenBlocked::stops) table.add("when_blocked", "stops");
+    if (collider.animation) table.add_text("animation", table_of(*collider.animation, folder).in_line());
     return table.add("pivot", collider.pivot)
         .add_unless(usual.surface_velocity, "surface_velocity", collider.surface_velocity);
 }
@@ -296,7 +327,8 @@ std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
         const std::string name = table_name(object);
         add("[[" + name + "]]", table_of(object, folder));
         for (const PartDescription& part : object.parts) add("[[object.part]]", table_of(part));
-        for (const HandleDescription& handle : object.handles) add("[[object.handle]]", table_of(handle));
+        for (const HandleDescription& handle : object.handles)
+            add("[[object.handle]]", table_of(handle, folder));
         for (const LoadDescription& load : object.loads) add("[[" + name + ".load]]", table_of(load));
     }
     for (const ColliderDescription& collider : scene.colliders)

@@ -8,6 +8,7 @@
 
 #include "mesh/mesh_in_memory.h"
 #include "model/scene/names.h"
+#include "model/scene/validate_animation.h"
 #include "model/setting_names.h"
 
 namespace gelatin {
@@ -78,8 +79,11 @@ public:
         if (!collider.name.empty()) checks_.check_text(field / "name", collider.name);
         if (std::holds_alternative<PlaneCollider>(collider.shape)) check_plane(field, collider);
         if (!has_contact_) check_solid(field, collider);
-        check_when_blocked(checks_, field / "when_blocked", collider.when_blocked, collider.keyframes,
-                           has_contact_);
+        check_when_blocked(checks_, field / "when_blocked", collider.when_blocked,
+                           !collider.keyframes.empty() || collider.animation, has_contact_);
+        if (!collider.animation) return;
+        if (const auto* shape = std::get_if<Shape>(&collider.shape))
+            check_animation(checks_, field / "animation", *collider.animation, *shape);
     }
 
 private:
@@ -94,6 +98,7 @@ private:
         if (collider.up) checks_.fail(field / "up", text_of(name_of(*collider.up)), placed);
         const std::string rests = "a plane does not move: a box can";
         if (!collider.keyframes.empty()) checks_.fail(field / "keyframes", "[{...}]", rests);
+        if (collider.animation) checks_.fail(field / "animation", "", rests);
         refuse_vector("surface_velocity", collider.surface_velocity, rests);
         if (collider.when_blocked == WhenBlocked::stops)
             checks_.fail(field / "when_blocked", text_of("stops"), rests);
@@ -110,6 +115,7 @@ private:
                 checks_.fail(field / "shape" / "mesh", {}, kNeedsContact);
         }
         if (!collider.keyframes.empty()) checks_.fail(field / "keyframes", "[{...}]", kNeedsContact);
+        if (collider.animation) checks_.fail(field / "animation", "", kNeedsContact);
         if (collider.surface_velocity != glm::dvec3(0.0))
             checks_.fail(field / "surface_velocity", text_of(collider.surface_velocity), kNeedsContact);
         if (collider.scale != 1.0) checks_.fail(field / "scale", text_of(collider.scale), kNeedsContact);

@@ -22,7 +22,7 @@ void check_handle(const ValueChecks& checks, const FieldPath& field, const Handl
                   bool has_contact);
 /// Of a handle or a collider with these keyframes. Only contact holds one up.
 void check_when_blocked(const ValueChecks& checks, const FieldPath& field, WhenBlocked when_blocked,
-                        const std::vector<Keyframe>& keys, bool has_contact);
+                        bool moves, bool has_contact);
 void check_load(const ValueChecks& checks, const FieldPath& field, const LoadDescription& load);
 
 }  // namespace gelatin

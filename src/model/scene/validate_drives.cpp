@@ -56,19 +56,24 @@ void check_keyframes(const ValueChecks& checks, const FieldPath& field, const st
 }
 
 void check_when_blocked(const ValueChecks& checks, const FieldPath& field, WhenBlocked when_blocked,
-                        const std::vector<Keyframe>& keys, bool has_contact) {
+                        bool moves, bool has_contact) {
     if (when_blocked != WhenBlocked::stops) return;
-    if (keys.empty()) checks.fail(field, text_of("stops"), "needs keyframes");
+    if (!moves) checks.fail(field, text_of("stops"), "needs keyframes or an animation");
     if (!has_contact) checks.fail(field, text_of("stops"), kNeedsContact);
 }
 
 void check_handle(const ValueChecks& checks, const FieldPath& field, const HandleDescription& handle,
                   bool has_contact) {
-    check_region(checks, field / "region", handle.region);
+    if (handle.skeleton) {
+        check_skeleton(checks, field / "skeleton", *handle.skeleton);
+    } else {
+        check_region(checks, field / "region", handle.region);
+    }
     checks.check(field / "pivot", handle.pivot);
     checks.check(field / "release", handle.release, kPositive);
     check_keyframes(checks, field / "keyframes", handle.keyframes);
-    check_when_blocked(checks, field / "when_blocked", handle.when_blocked, handle.keyframes, has_contact);
+    check_when_blocked(checks, field / "when_blocked", handle.when_blocked,
+                       !handle.keyframes.empty() || handle.skeleton, has_contact);
     checks.check(field / "drag" / "move", handle.drag.move);
     checks.check(field / "drag" / "turn", handle.drag.turn);
 }

@@ -21,7 +21,7 @@ public:
     }
     ContactForces contact_forces() override { return contacts_; }
     HoldingForces holding_forces() override { return holds_; }
-    std::vector<std::uint32_t> held_up(std::span<const HandlePose> /*poses*/) override { return {}; }
+    std::vector<std::uint32_t> held_up(std::span<const glm::dvec3> /*places*/) override { return {}; }
     std::string device() const override { return "a recording"; }
 
 private:

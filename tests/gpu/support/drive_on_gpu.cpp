@@ -19,12 +19,13 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-NodeArrays apply_kinematics_on_gpu(const Model& model, std::span<const HandleMotion> motions) {
+NodeArrays apply_kinematics_on_gpu(const Model& model, std::span<const HandleMotion> motions,
+                                   std::span<const NodeMotion> animated) {
     NodeArrays arrays{poisoned(model.node_count()), poisoned(model.node_count())};
     std::copy(model.positions.begin(), model.positions.end(), arrays.positions.begin());
     std::copy(model.velocities.begin(), model.velocities.end(), arrays.velocities.begin());
     const gpu::NodeBuffers nodes(arrays.positions, arrays.velocities);
-    gpu::ApplyKinematics(model).run(motions, nodes);
+    gpu::ApplyKinematics(model).run(motions, animated, nodes);
     gl::barrier(gl::Barrier::buffer_update);
     nodes.positions.download(arrays.positions);
     nodes.velocities.download(arrays.velocities);
@@ -32,10 +33,10 @@ NodeArrays apply_kinematics_on_gpu(const Model& model, std::span<const HandleMot
 }
 
 double worst_kinematics_error(const Model& model, std::span<const HandleMotion> motions,
-                              const NodeArrays& actual) {
+                              std::span<const NodeMotion> animated, const NodeArrays& actual) {
     cpu::Nodes<double> expected{{model.positions.begin(), model.positions.end()},
                                 {model.velocities.begin(), model.velocities.end()}};
-    cpu::apply_kinematics<double>(model, motions, expected);
+    cpu::apply_kinematics<double>(model, motions, animated, expected);
     std::vector<bool> is_held(model.node_count(), false);
     double reach = 0.0, speed = 0.0;
     for (const HandleNode& held : model.handle_nodes) {

@@ -10,6 +10,8 @@
 #include "gpu/support/skin_on_gpu.h"
 #include "gpu/support/tet_values.h"
 #include "gpu/support/watched_runs.h"
+#include "model/drive/handle_animation.h"
+#include "model/drive/handle_arms.h"
 #include "model/setting_names.h"
 #include "support/lost_shapes.h"
 #include "support/mixed_bodies.h"
@@ -40,6 +42,26 @@ double step_error(const Model& model, SolverKind solver, ForceMethod forces) {
     if (!guards_are_untouched(model, actual)) return error_if(true);
     return worst_error(model, rounding_bounds(model, solver, kSolverStep),
                        oracle_step(model, solver, kSolverStep), actual.positions, actual.velocities);
+}
+
+// Vertices of its own move the first handle's nodes.
+Model with_animation(Model model) {
+    Handle& handle = model.handles[0];
+    auto animation = std::make_shared<HandleAnimation>();
+    VertexFrames frames{{{}, {}, {}}, 2.0};
+    std::uint32_t count = 0;
+    for (HandleNode& held : model.handle_nodes) {
+        if (held.handle != 0) continue;
+        held.animated = count;
+        animation->sources.push_back(count++);
+        const glm::dvec3 arm(held.arm);
+        frames.frames[0].push_back(arm);
+        frames.frames[1].push_back(arm + glm::dvec3(0.1 * arm.y, 0.2, 0.3 * arm.x));
+        frames.frames[2].push_back(1.5 * arm);
+    }
+    animation->motion.emplace().of = std::move(frames);
+    handle.animation = std::move(animation);
+    return model;
 }
 
 // No body is at rest.
@@ -86,13 +108,18 @@ Scenarios step_scenarios() {
 Scenarios kinematics_scenarios() {
     Scenarios scenarios;
     for (const double time : {0.3, 1.1, 0.0, 0.49, 0.9, 5.0}) {
-        scenarios.push_back({fmt::format("at_{:.0f}_hundredths", 100.0 * time), [=] {
-                                 const Model model = make_driven_model();
-                                 const auto motions = handle_motions(model.handles, time, kSolverFrame);
-                                 const NodeArrays actual = apply_kinematics_on_gpu(model, motions);
-                                 if (!guards_are_untouched(model, actual)) return error_if(true);
-                                 return worst_kinematics_error(model, motions, actual);
-                             }});
+        scenarios.push_back(
+            {fmt::format("at_{:.0f}_hundredths", 100.0 * time), [=] {
+                 const Model model = with_animation(make_driven_model());
+                 const auto motions = handle_motions(model.handles, time, kSolverFrame);
+                 const std::vector<Drag> none(model.handles.size());
+                 const HandleTimes times{{time, time}, {time + kSolverFrame, time + kSolverFrame}};
+                 const auto animated = HandleArms(std::make_shared<const Model>(model))
+                                           .motions(none, none, times, kSolverFrame);
+                 const NodeArrays actual = apply_kinematics_on_gpu(model, motions, animated);
+                 if (!guards_are_untouched(model, actual)) return error_if(true);
+                 return worst_kinematics_error(model, motions, animated, actual);
+             }});
     }
     return scenarios;
 }

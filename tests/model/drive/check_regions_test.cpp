@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gelatin/error.h"
+#include "model/region.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -13,7 +14,11 @@ namespace {
 // What is wrong with the regions of a block of 1 m from the origin on.
 std::string problem_with(const ObjectDescription& object) {
     try {
-        check_regions("scene.toml", object, test::make_block({2, 2, 2}, {1, 1, 1}));
+        const TetMesh block = test::make_block({2, 2, 2}, {1, 1, 1});
+        std::vector<std::vector<std::uint32_t>> held;
+        for (const HandleDescription& handle : object.handles)
+            held.push_back(find_inside(handle.region, block.positions));
+        check_regions("scene.toml", object, block, held);
     } catch (const InvalidInput& error) {
         return error.what();
     }
