@@ -1,5 +1,6 @@
 #include "gpu/implicit/convex_bodies.h"
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -57,6 +58,8 @@ ConvexBodies::ConvexBodies(const Model& model, const ContactSurface& surface, bo
     std::vector<std::uint32_t> are_convex(model.objects.size());
     if (own) are_convex.assign(surface.is_convex.begin(), surface.is_convex.end());
     const ConvexTets all = convex_tets_of(model, are_convex);
+    // Colliders never meet themselves: they are like what has lost nothing.
+    std::fill(are_convex.begin() + static_cast<std::ptrdiff_t>(model.body_count()), are_convex.end(), 1u);
     tet_count = static_cast<std::uint32_t>(all.tets.size());
     convex_bodies_ = {are_convex, gl::TexelFormat::r32ui};
     tets_ = {all.tets, gl::TexelFormat::rgba32ui};
