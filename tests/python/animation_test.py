@@ -143,11 +143,13 @@ def test_vertices_may_be_of_other_kinds(pushed):
             sim.set_collider_vertices("piston", kind(places))
             sim.advance()
         assert same_bits(sim.positions, sims[0].positions)
+    np.testing.assert_allclose(sim.positions, pushed, atol=1e-4)
 
 
 def test_reset_puts_them_back():
     sim, fresh = (simulate(ball_beside(gelatin.Animation(gelatin.AnimationByProgram()))) for _ in range(2))
     run_program(sim)
+    assert sim["ball"].center[0] > 0.1
     sim.reset()
     sim.advance(3)
     np.testing.assert_allclose(sim.positions, sim.rest_positions, atol=1e-6)
