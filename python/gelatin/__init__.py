@@ -11,6 +11,7 @@
 """
 
 from ._gelatin import commit, version
+from .animations import Animation, AnimationByProgram, AnimationClip, AnimationFiles, AnimationFrames, Skeleton
 from .batch import Batch
 from .bodies import Body
 from .errors import Diverged, Error, GlError, InvalidInput, NoOpenGl, SystemError
@@ -66,6 +67,11 @@ from .sweeps import sweep
 
 __version__ = version()
 __all__ = [
+    "Animation",
+    "AnimationByProgram",
+    "AnimationClip",
+    "AnimationFiles",
+    "AnimationFrames",
     "Attached",
     "AttachedDistance",
     "AttachedLine",
@@ -117,6 +123,7 @@ __all__ = [
     "Shape",
     "SimulationSettings",
     "Simulator",
+    "Skeleton",
     "Sphere",
     "SphereRegion",
     "SpringKinds",

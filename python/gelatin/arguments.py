@@ -65,6 +65,15 @@ def vector(name: str, value: Any) -> npt.NDArray[np.float64]:
     return found
 
 
+def vectors(name: str, value: Any, *axes: str) -> npt.NDArray[np.float64]:
+    """A copy of the shape (*axes, 3), in C's order. Raises TypeError for what is no array of numbers, InvalidInput for another shape."""
+    allowed = f"the shape ({', '.join(axes)}, 3)"
+    found = numbers(name, value, f"numbers of {allowed}")
+    if found.ndim != len(axes) + 1 or found.shape[-1] != 3:
+        raise InvalidInput(f"{name} must have {allowed}, not {found.shape}")
+    return np.ascontiguousarray(found)
+
+
 def text(name: str, value: Any) -> str:
     if not isinstance(value, str):
         raise wrong_type(name, value, "a str")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal, Union
 
+from .animations import Animation, Skeleton
 from .shapes import Plane, Region, Shape, Vector
 
 
@@ -52,9 +53,10 @@ class Drag:
 
 @dataclass(slots=True)
 class Handle:
-    """Nodes that follow keyframes. They are at rest before the first and after the last."""
+    """Nodes that follow keyframes, bones, or both. They are at rest before the first keyframe and after the last."""
 
-    region: Region
+    #: which nodes; None: those near the bones of `skeleton`. One of the two is given.
+    region: Region | None = None
     #: in ascending order of time; the first is the start; none: a pin
     keyframes: list[Keyframe] = field(default_factory=list)
     #: point about which it rotates and scales [m]; None: its nodes' centre
@@ -63,9 +65,11 @@ class Handle:
     #: time from which the nodes are free [s], > 0
     release: float | None = None
     drag: Drag = field(default_factory=Drag)
-    #: what happens while bodies leave it no room: the time of its keyframes goes on, or stands still
+    #: what happens while bodies leave it no room: the time of its keyframes and its skeleton goes on, or stands still
     when_blocked: Literal["goes_on", "stops"] = "goes_on"
     line: int = field(default=0, repr=False)
+    #: in place of a region: bones hold the nodes near them, and move them in addition to the keyframes
+    skeleton: Skeleton | None = None
 
 
 @dataclass(slots=True)
@@ -212,10 +216,12 @@ class Collider:
     name: str = ""
     #: > 0, applied first
     scale: float = 1.0
-    #: what happens while bodies leave it no room: the time of its keyframes goes on, or stands still
+    #: what happens while bodies leave it no room: the time of its keyframes and its animation goes on, or stands still
     when_blocked: Literal["goes_on", "stops"] = "goes_on"
     #: as of objects; not for planes
     up: Literal["x", "y", "z"] | None = None
+    #: how its vertices move, in addition to keyframes; None: its shape does not change; with contact, and not for planes
+    animation: Animation | None = None
 
 
 @dataclass(slots=True)

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _gelatin
-from .arguments import check_function, text, texts, whole_number
+from .arguments import check_function, text, texts, vectors, whole_number
 from .bodies import Body
 from .errors import InvalidInput
 from .hands import Hand
@@ -159,7 +159,7 @@ class Simulator:
         raise ValueError("this is no callback of the simulator")
 
     def reset(self) -> None:
-        """Returns to the start: hands, forces, pins and attachments of programs are gone. Allowed after Diverged."""
+        """Returns to the start: hands, forces, pins, attachments and vertices of programs are gone. Allowed after Diverged."""
         self._core.reset()
         self._forget_changes()
 
@@ -262,6 +262,21 @@ class Simulator:
         materials = [changed if material is found[0] else material for material in self.scene.materials]
         self.scene = dataclasses.replace(self.scene, materials=materials)
         self._objects = self._read_objects()
+
+    def set_collider_vertices(self, collider: str, vertices: npt.ArrayLike) -> None:
+        """Where the vertices of a collider with `AnimationByProgram` are to be when a frame's time from now has passed.
+
+        They go there at even speed, and stay there until another call: call it before each `advance(1)`. `reset` puts them back
+        to where the shape has them. Checkpoints do not have them: set them again after `load_checkpoint`.
+
+        collider: its name.
+        vertices: those of its shape, in its order, before scale, rotation, position and keyframes place it [m], shape
+            (vertices, 3). For a mesh in memory they are as many as its `vertices`, for a file as many as in the file.
+
+        Raises InvalidInput for a collider that there is not or that no program moves, for another number of vertices, and for
+        numbers that are not finite; TypeError for what is no array of numbers.
+        """
+        self._core.set_collider_vertices(text("collider", collider), vectors("vertices", vertices, "vertices"))
 
     # Attachments
 

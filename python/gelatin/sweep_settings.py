@@ -7,6 +7,7 @@ import dataclasses
 import hashlib
 import itertools
 import json
+import os
 import re
 import zlib
 from collections.abc import Iterable, Mapping
@@ -15,6 +16,7 @@ from typing import Any, Union
 
 import numpy as np
 
+from .animations import AnimationFiles, AnimationFrames, Skeleton
 from .errors import InvalidInput
 from .objects import Collider, Object
 from .scene import Scene, load
@@ -25,6 +27,7 @@ FIELDS = {
     "Scene": {"material": "materials", "object": "objects", "rigid": "objects", "collider": "colliders", "attachment": "attachments"},
     "CollisionSettings": {"pair": "pairs"},
     "Object": {"handle": "handles", "load": "loads", "part": "parts", "mass": "rigid.mass", "inertia": "rigid.inertia"},
+    "Animation": {"clip": "source.name", "files": "source.pattern", "rate": "source.rate"},
     "Load": {"from": "start", "force": "kind.sum", "traction": "kind.stress", "pressure": "kind.pressure"},
     "Attachment": {
         "region": "where",
@@ -276,13 +279,23 @@ def _element(elements: list[Any], part: str, key: str, place: str) -> Any:
 
 
 def with_absolute_paths(scene: Scene) -> Scene:
-    """A copy whose meshes are found from any working folder."""
+    """A copy whose files are found from any working folder."""
     scene = copy.deepcopy(scene)
     folder = Path(scene.file).parent if scene.file else Path()
+
+    def absolute(file: str | os.PathLike[str]) -> str:
+        return str((folder / file).absolute())
+
     owners: list[Union[Object, Collider]] = [*scene.objects, *scene.colliders]
     for owner in owners:
         if isinstance(owner.shape, File):
-            owner.shape.file = str((folder / owner.shape.file).absolute())
+            owner.shape.file = absolute(owner.shape.file)
+    for collider in scene.colliders:
+        if collider.animation and isinstance(collider.animation.source, AnimationFiles):
+            collider.animation.source.pattern = absolute(collider.animation.source.pattern)
+    for handle in (handle for each in scene.objects for handle in each.handles):
+        if handle.skeleton:
+            handle.skeleton.file = absolute(handle.skeleton.file)
     return scene
 
 
@@ -294,16 +307,18 @@ def digest(scene: Scene) -> str:
 
 
 def _add_to_digest(found: Any, value: Any) -> None:
-    if isinstance(value, File):
-        path = Path(value.file)
-        found.update(path.read_bytes() if path.is_file() else str(path).encode())
-    elif isinstance(value, Mesh):
+    if isinstance(value, Mesh):
         for part in value.__slots__:
             found.update(np.ascontiguousarray(getattr(value, part), np.float64).tobytes())
+    elif isinstance(value, AnimationFrames):
+        frames = np.ascontiguousarray(value.frames, np.float64)
+        found.update(repr((frames.shape, float(value.rate))).encode() + frames.tobytes())
     elif dataclasses.is_dataclass(value):
+        for path in _files_of(value):
+            found.update(path.read_bytes() if path.is_file() else str(path).encode())
         found.update(type(value).__name__.encode())
         for field in dataclasses.fields(value):
-            if field.name not in ("line", "pins_line", "file"):
+            if field.name not in ("line", "pins_line", "file", "pattern"):
                 _add_to_digest(found, getattr(value, field.name))
     elif isinstance(value, (list, tuple, np.ndarray)):
         found.update(b"[")
@@ -313,3 +328,13 @@ def _add_to_digest(found: Any, value: Any) -> None:
     else:
         is_number = isinstance(value, (int, float, np.number))
         found.update(repr(float(value) if is_number else value).encode() + b",")
+
+
+def _files_of(value: Any) -> list[Path]:
+    """What a scene reads besides its own file."""
+    if isinstance(value, (File, Skeleton)):
+        return [Path(value.file)]
+    if isinstance(value, AnimationFiles):
+        pattern = Path(value.pattern)
+        return sorted(pattern.parent.glob(pattern.name)) or [pattern]
+    return []

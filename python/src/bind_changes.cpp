@@ -1,11 +1,13 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -18,11 +20,13 @@ namespace gelatin::python {
 namespace {
 
 using Values = nb::ndarray<const float, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using Vertices = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Triple = std::array<double, 3>;
 // Nodes, their arms, the stiffness of each, the target, the damping time.
 using PullValues = std::tuple<std::vector<std::uint32_t>, std::vector<Triple>, double, Triple, double>;
 
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+static_assert(sizeof(glm::dvec3) == 3 * sizeof(double));
 
 std::span<const glm::vec3> vectors_of(const Values& values) {
     return {reinterpret_cast<const glm::vec3*>(values.data()), values.shape(0)};
@@ -109,6 +113,14 @@ void bind_changes(nb::class_<PythonSimulator>& simulator) {
                 self.use([&](Simulator& s) { s.set_motor(attachment, motor); });
             },
             nb::arg("attachment"), nb::arg("motor"))
+        .def(
+            "set_collider_vertices",
+            [](PythonSimulator& self, const std::string& collider, const Vertices& values) {
+                const auto* const first = reinterpret_cast<const glm::dvec3*>(values.data());
+                const std::vector<glm::dvec3> vertices(first, first + values.shape(0));
+                self.use([&](Simulator& s) { s.set_collider_vertices(collider, vertices); });
+            },
+            nb::arg("collider"), nb::arg("vertices"))
         .def(
             "set_pulls",
             [](PythonSimulator& self, const std::vector<PullValues>& values) {

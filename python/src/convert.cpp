@@ -41,6 +41,10 @@ void raise_type_error(const std::string& where, const std::string& allowed, nb::
     throw nb::type_error((where + " = " + shown + ": must be " + allowed).c_str());
 }
 
+std::string with_article(const std::string& name) {
+    return (std::string("AEIO").find(name.front()) == std::string::npos ? "a " : "an ") + name;
+}
+
 nb::object class_named(const char* name) {
     return nb::module_::import_("gelatin").attr(name);
 }

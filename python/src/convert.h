@@ -21,6 +21,8 @@ namespace gelatin::python {
 
 namespace nb = nanobind;
 
+using FramesInMemory = decltype(AnimationFrames::frames);
+
 /// A value of a scene from Python.
 /// @param where for messages: "object.ball.position"; empty for the scene itself
 /// @throws nanobind's TypeError for a value of another type; InvalidInput for a word that is not allowed
@@ -35,6 +37,9 @@ void read(nb::handle source, const std::string& where, glm::ivec3& value);
 void read(nb::handle source, const std::string& where, Automatic& value);
 void read(nb::handle source, const std::string& where, MeshShape& value);  // mesh_conversion.cpp
 void read(nb::handle source, const std::string& where, std::shared_ptr<const SceneMeshes>& value);
+// animation_conversion.cpp
+void read(nb::handle source, const std::string& where, FramesInMemory& value);
+void read(nb::handle source, const std::string& where, HandleDescription& value);
 
 nb::object to_python(bool value);
 nb::object to_python(int value);
@@ -47,6 +52,7 @@ nb::object to_python(const glm::ivec3& value);
 nb::object to_python(const Automatic& value);
 nb::object to_python(const MeshShape& value);
 nb::object to_python(const std::shared_ptr<const SceneMeshes>& value);
+nb::object to_python(const FramesInMemory& value);
 
 /// "object.ball"
 std::string joined(const std::string& where, const char* name);
@@ -55,6 +61,9 @@ std::string place_of(nb::handle element, const std::string& where, std::size_t i
 
 /// Raises "WHERE = SOURCE: must be ALLOWED". A source whose text is long goes by its type.
 [[noreturn]] void raise_type_error(const std::string& where, const std::string& allowed, nb::handle source);
+
+/// "a Mesh", "an Animation"
+std::string with_article(const std::string& name);
 
 /// A class of the package `gelatin`.
 nb::object class_named(const char* name);
@@ -158,8 +167,7 @@ void read(nb::handle source, const std::string& where, T& value) {
     } else {
         static_assert(HasFields<T>);
         if (!is_instance(source, &value))
-            raise_type_error(where.empty() ? "scene" : where, std::string("a ") + class_names(&value),
-                             source);
+            raise_type_error(where.empty() ? "scene" : where, with_article(class_names(&value)), source);
         Fields<T>::visit(value, [&](const char* name, auto& member) {
             read(nb::getattr(source, name), joined(where, name), member);
         });

@@ -42,11 +42,29 @@ struct Fields<DragDescription> {
 };
 
 template <>
+struct Fields<SkeletonDescription> {
+    static constexpr const char* kClass = "Skeleton";
+    static void visit(SkeletonDescription& s, auto&& field) {
+        auto& [file, radius, clip, start, speed, loop] = s;
+        field("file", file);
+        field("radius", radius);
+        field("clip", clip);
+        field("start", start);
+        field("speed", speed);
+        field("loop", loop);
+    }
+};
+
+/// Read by animation_conversion.cpp, which sees to it that there is a region or a skeleton.
+template <>
 struct Fields<HandleDescription> {
     static constexpr const char* kClass = "Handle";
     static void visit(HandleDescription& h, auto&& field) {
         auto& [region, pivot, interpolation, release, keyframes, line, drag, when_blocked, skeleton] = h;
-        field("region", region);
+        std::optional<Region> place;  // of a skeleton: none
+        if (!skeleton) place = region;
+        field("region", place);
+        if (place) region = *place;
         field("pivot", pivot);
         field("interpolation", interpolation);
         field("release", release);
@@ -54,6 +72,7 @@ struct Fields<HandleDescription> {
         field("drag", drag);
         field("when_blocked", when_blocked);
         field("line", line);
+        field("skeleton", skeleton);
     }
 };
 
@@ -167,6 +186,54 @@ struct Fields<ObjectDescription> {
 };
 
 template <>
+struct Fields<AnimationClip> {
+    static constexpr const char* kClass = "AnimationClip";
+    static void visit(AnimationClip& c, auto&& field) {
+        auto& [name] = c;
+        field("name", name);
+    }
+};
+
+template <>
+struct Fields<AnimationFiles> {
+    static constexpr const char* kClass = "AnimationFiles";
+    static void visit(AnimationFiles& f, auto&& field) {
+        auto& [pattern, rate] = f;
+        field("pattern", pattern);
+        field("rate", rate);
+    }
+};
+
+/// The frames are converted by animation_conversion.cpp, from and to an array.
+template <>
+struct Fields<AnimationFrames> {
+    static constexpr const char* kClass = "AnimationFrames";
+    static void visit(AnimationFrames& f, auto&& field) {
+        auto& [frames, rate] = f;
+        field("frames", frames);
+        field("rate", rate);
+    }
+};
+
+template <>
+struct Fields<AnimationByProgram> {
+    static constexpr const char* kClass = "AnimationByProgram";
+    static void visit(AnimationByProgram& /*p*/, auto&& /*field*/) {}
+};
+
+template <>
+struct Fields<AnimationDescription> {
+    static constexpr const char* kClass = "Animation";
+    static void visit(AnimationDescription& a, auto&& field) {
+        auto& [source, start, speed, loop] = a;
+        field("source", source);
+        field("start", start);
+        field("speed", speed);
+        field("loop", loop);
+    }
+};
+
+template <>
 struct Fields<ColliderDescription> {
     static constexpr const char* kClass = "Collider";
     static void visit(ColliderDescription& c, auto&& field) {
@@ -185,6 +252,7 @@ struct Fields<ColliderDescription> {
         field("scale", scale);
         field("when_blocked", when_blocked);
         field("up", up);
+        field("animation", animation);
     }
 };
 

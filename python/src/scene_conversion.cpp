@@ -55,10 +55,11 @@ nb::object python_scene(const Scene& scene) {
 nb::dict scene_defaults() {
     return defaults_of<SimulationSettings, MaterialPair, CollisionSettings, SpringKinds, Material,
                        SphereShape, BoxShape, CapsuleShape, TextShape, MesherSettings, Keyframe,
-                       DragDescription, HandleDescription, ForceLoad, TractionLoad, PressureLoad,
-                       LoadDescription, PartDescription, StartDescription, RigidDescription,
-                       ObjectDescription, PlaneCollider, ColliderDescription, JointSpring, MotorKeyframe,
-                       JointMotor, AttachmentDescription, CameraDescription, Scene>();
+                       DragDescription, SkeletonDescription, HandleDescription, ForceLoad, TractionLoad,
+                       PressureLoad, LoadDescription, PartDescription, StartDescription, RigidDescription,
+                       ObjectDescription, PlaneCollider, AnimationClip, AnimationFiles, AnimationFrames,
+                       AnimationDescription, ColliderDescription, JointSpring, MotorKeyframe, JointMotor,
+                       AttachmentDescription, CameraDescription, Scene>();
 }
 
 }  // namespace gelatin::python

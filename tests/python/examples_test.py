@@ -76,6 +76,7 @@ def test_snippets_of_the_page(tmp_path, monkeypatch, needs_gl):
     snippets = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     assert len(snippets) >= 8
     (tmp_path / "scenes").symlink_to(Path("scenes").resolve())
+    subprocess.run([sys.executable, "scripts/make_animated_meshes", tmp_path], check=True)
     monkeypatch.chdir(tmp_path)
     names = {}
     for snippet in snippets:

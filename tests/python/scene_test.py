@@ -37,6 +37,7 @@ def scene_with_everything():
     half = gelatin.HalfSpaceRegion((0.0, 1.0, 0.0), 0.25)
     frames = [gelatin.Keyframe(), gelatin.Keyframe(1.0, (1.0, 0.0, 0.0), (0.0, 90.0, 0.0), 2.0)]
     drag = gelatin.Drag((0.1, 0.0, 0.0), (0.0, 5.0, 0.0))
+    skeleton = gelatin.Skeleton("arm.glb", 0.1, "flex", 1.0, 2.0, True)
     scene.add(
         "o",
         gelatin.Text("x", 0.3, 2.0, "serif"),
@@ -49,7 +50,7 @@ def scene_with_everything():
         mesher=gelatin.Mesher("lattice", 1.5, 60.0, 100, 0.1, 0.2),
         start=gelatin.Start((0.5, 0.6, 0.7), 0.1),
         pins=[region, ball, half],
-        handles=[gelatin.Handle(half, frames, (1.0, 1.0, 1.0), "smooth", 2.0, drag, "stops", line=4)],
+        handles=[gelatin.Handle(half, frames, (1.0, 1.0, 1.0), "smooth", 2.0, drag, "stops", line=4), gelatin.Handle(skeleton=skeleton)],
         loads=[
             gelatin.Load(ball, gelatin.Force((1.0, 0.0, 0.0)), 0.5, 1.5, line=3),
             gelatin.Load(ball, gelatin.Traction((1.0, 0.0, 0.0))),
@@ -76,6 +77,13 @@ def scene_with_everything():
             gelatin.Sphere(), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 0.7, 0.1, frames, "smooth", (1.0, 0.0, 1.0), (2.0, 0.0, 2.0), "belt", 3.0, "stops", up="x"
         )
     )
+    for source in (
+        gelatin.AnimationClip("curl"),
+        gelatin.AnimationFiles("wave_*.obj", 12.0),
+        gelatin.AnimationFrames(np.arange(24.0).reshape(2, 4, 3), 12.0),
+        gelatin.AnimationByProgram(),
+    ):
+        scene.colliders.append(gelatin.Collider(gelatin.File("wave.glb"), animation=gelatin.Animation(source, 1.0, 2.0, True)))
     scene.attachments = [
         gelatin.Attachment("o", "belt", ball, 0.1, 2.0, "hook", line=8),
         gelatin.Attachment("o", where=gelatin.AttachedPoint((1.0, 2.0, 3.0))),
@@ -133,6 +141,8 @@ def test_defaults_are_those_of_c():
             elif field.default_factory is not dataclasses.MISSING:
                 default = field.default_factory()
             else:
+                continue
+            if (name, field.name) == ("Handle", "region"):  # C++ has no empty region, and does not use that of a skeleton
                 continue
             assert fields[field.name] == default, f"{name}.{field.name}"
 

@@ -6,7 +6,7 @@ from conftest import falling_ball
 
 import gelatin
 from gelatin.sweep_command import values_of
-from gelatin.sweep_settings import Plan, digest, find, plan_runs, scene_with
+from gelatin.sweep_settings import Plan, digest, find, plan_runs, scene_with, with_absolute_paths
 
 
 def test_runs_are_all_combinations():
@@ -80,7 +80,10 @@ def scene_with_names():
     ball.handles.append(gelatin.Handle(gelatin.HalfSpaceRegion((0, 1, 0), 1.6), [gelatin.Keyframe(), gelatin.Keyframe(1.0)]))
     ball.loads.append(gelatin.Load(gelatin.SphereRegion((0, 2, 0), 0.2), gelatin.Pressure(5.0)))
     scene.add_rigid("crate", gelatin.Box(), mass=2.0)
+    ball.handles.append(gelatin.Handle(skeleton=gelatin.Skeleton("arm.glb", 0.1)))
     scene.colliders[0].name = "floor"
+    scene.add_collider("tentacle.glb", name="tentacle", position=(9, 0, 0), animation=gelatin.Animation(gelatin.AnimationClip("curl")))
+    scene.add_collider("a.obj", name="sea", position=(9, 9, 0), animation=gelatin.Animation(gelatin.AnimationFiles("wave_*.obj")))
     scene.add_attachment("ball", "floor", gelatin.AttachedPoint((0.0, 0.0, 0.0)), name="joint")
     motor = gelatin.JointMotor(1.0, keyframes=[gelatin.MotorKeyframe(1.0, 2.0)])
     hinge = gelatin.AttachedLine((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
@@ -103,6 +106,12 @@ def scene_with_names():
         ("rigid.0.inertia", [1, 1, 1], lambda s: s.objects[1].rigid.inertia),
         ("rigid.crate.position", [1, 2, 3], lambda s: s.objects[1].position),
         ("collider.floor.friction", 0.9, lambda s: s.colliders[0].friction),
+        ("object.ball.handle.1.skeleton.radius", 0.2, lambda s: s.objects[0].handles[1].skeleton.radius),
+        ("object.ball.handle.1.skeleton.clip", "wave", lambda s: s.objects[0].handles[1].skeleton.clip),
+        ("collider.tentacle.animation.clip", "wave", lambda s: s.colliders[1].animation.source.name),
+        ("collider.tentacle.animation.speed", 2.0, lambda s: s.colliders[1].animation.speed),
+        ("collider.sea.animation.files", "surge_*.obj", lambda s: s.colliders[2].animation.source.pattern),
+        ("collider.sea.animation.rate", 30.0, lambda s: s.colliders[2].animation.source.rate),
         ("attachment.joint.compliance", 0.5, lambda s: s.attachments[0].compliance),
         ("attachment.0.point", [0, 1, 0], lambda s: s.attachments[0].where.at),
         ("attachment.hinge.limits", [0, 90], lambda s: s.attachments[1].limits),
@@ -209,6 +218,37 @@ def test_a_digest_tells_scenes_apart(tmp_path):
     before = digest(scene)
     mesh.write_text("v 0 0 1\n")
     assert digest(scene) != before
+
+
+def test_a_digest_has_what_moves_vertices(tmp_path):
+    scene = falling_ball()
+    scene.objects[0].handles = [gelatin.Handle(skeleton=gelatin.Skeleton(tmp_path / "arm.glb", 0.1))]
+    scene.add_collider(animation=gelatin.Animation(gelatin.AnimationFiles(tmp_path / "wave_*.obj")))
+    scene.add_collider(animation=gelatin.Animation(gelatin.AnimationFrames(np.zeros((2, 4, 3)))))
+    digests = [digest(scene)]
+
+    def is_new():
+        digests.append(digest(scene))
+        return digests.count(digests[-1]) == 1
+
+    assert not is_new()
+    for name in ("arm.glb", "wave_1.obj", "wave_2.obj"):
+        (tmp_path / name).write_text("a")
+        assert is_new(), name
+    scene.colliders[2].animation.source.frames[1, 2, 0] = 1.0
+    assert is_new()
+    scene.colliders[2].animation.source.rate = 30.0
+    assert is_new()
+
+
+def test_files_are_found_from_any_folder(tmp_path):
+    scene = scene_with_names()
+    scene.file = tmp_path / "scene.toml"
+    moved = with_absolute_paths(scene)
+    assert moved.objects[0].handles[1].skeleton.file == str(tmp_path / "arm.glb")
+    assert moved.colliders[1].shape.file == str(tmp_path / "tentacle.glb")
+    assert moved.colliders[2].animation.source.pattern == str(tmp_path / "wave_*.obj")
+    assert scene.objects[0].handles[1].skeleton.file == "arm.glb"
 
 
 @pytest.mark.parametrize(

@@ -16,9 +16,15 @@ sim = gelatin.Simulator(scene, backend="cpu")
 speed: float = float(sim["ball"].velocities[:, 1].max())
 reveal_type(sim.positions)
 sim["ball"].set_velocity((0, 1, 0))
+frames = gelatin.AnimationFrames([[(0, 0, 0)]], rate=30)
+gelatin.Collider(gelatin.Box(), animation=gelatin.Animation(frames, loop=True))
+gelatin.Handle(skeleton=gelatin.Skeleton("arm.glb", radius=0.1))
+gelatin.Handle(gelatin.SphereRegion((0, 0, 0), 1), [gelatin.Keyframe()])
+sim.set_collider_vertices("wave", sim["ball"].positions)
 gelatin.Simulator(scene, backend="cuda")
 gelatin.Sphere(radius="large")
 sim["ball"].hand
+gelatin.Animation(source="curl")
 """
 
 
@@ -34,7 +40,7 @@ def test_types(tmp_path):
     command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", "gelatin", "program.py"]
     result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     lines = [line for line in result.stdout.splitlines() if ": error:" in line]
-    assert [line.split(":")[0] for line in lines] == ["program.py"] * 3, result.stdout + result.stderr
-    for line, problem in zip(lines, ('"backend"', '"radius"', '"hand"')):
+    assert [line.split(":")[0] for line in lines] == ["program.py"] * 4, result.stdout + result.stderr
+    for line, problem in zip(lines, ('"backend"', '"radius"', '"hand"', '"source"')):
         assert problem in line
     assert "float" in result.stdout and "ndarray" in result.stdout
