@@ -458,8 +458,8 @@ struct AttachmentDescription {
     std::string name = {};  ///< in messages; empty: "attachment 1", by its place in the scene
     std::string object;     ///< a name in Scene::objects
     std::string to = {};    ///< another object's name, or a collider's; empty: where it is in space
-    /// Which points: of a region, the object's nodes in it. None: the nodes of its surface that are near what
-    /// it is attached to, by half of its median edge.
+    /// Which points: of a region, the object's nodes in it. None: its nodes within what it is attached to, or
+    /// nearer to it than half of its median edge.
     std::variant<std::monostate, Region, AttachedPoint, AttachedLine, AttachedRail, AttachedUniversal,
                  AttachedDistance>
         where = {};

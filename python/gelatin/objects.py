@@ -334,8 +334,8 @@ class Attachment:
     object: str
     #: another object's name, or a collider's; empty: where it is in space
     to: str = ""
-    #: which points: of a region, the object's nodes in it; None: the nodes of its surface that are near what it is attached to,
-    #: by half of its median edge
+    #: which points: of a region, the object's nodes in it; None: those within what it is attached to, or nearer to it
+    #: than half of its median edge
     where: Attached | None = None
     #: of the whole attachment [m/N], >= 0; 0: as stiff as the bodies
     compliance: float = 0.0

@@ -213,7 +213,7 @@ class Scene:
 
         object: its name, or itself.
         to: a name, or an object or collider itself, which must have a name; empty: space.
-        where: which points; None: those of its surface that are near `to`.
+        where: which points; None: those within `to`, or near it.
         """
         attachment = attachment_of(object, to, where, **fields)
         self.attachments.append(attachment)

@@ -128,7 +128,8 @@ Drags carried_over(const Model& from, const Drags& drags, const Model& to, const
         const ModelObject* same = find_same(from, to, to.objects[to.handles[h].object]);
         if (same == nullptr || to.handles[h].count == 0) continue;
         const std::optional<std::size_t> earlier = find_handle(from, *same, nodes_of(to, h));
-        carried[h] = earlier ? drags.drags()[*earlier] : drag_to(state, to, h, times[h]);
+        const bool follows = !earlier && to.handles[h].animation != nullptr;  // no drag could say how
+        carried[h] = earlier ? drags.drags()[*earlier] : follows ? Drag() : drag_to(state, to, h, times[h]);
         targets[h] = earlier ? drags.targets()[*earlier] : carried[h];
     }
     start.go_on_with(std::move(carried), std::move(targets));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "gelatin/drag.h"
@@ -17,6 +18,7 @@ struct Checkpoint {
     State state;
     std::vector<Drag> drags = {}, drag_targets = {};  ///< shape [handles], or none
     std::vector<double> delays = {};                  ///< of handles [s], shape [handles], or none
+    std::string programmed = {};                      ///< HandleArms::archive; empty: nothing
 };
 
 /// A model's tets and faces, as a number: what a state belongs to.

@@ -35,16 +35,23 @@ void Simulator::save_checkpoint(const std::filesystem::path& file) const {
     const auto host = impl_->keep_host_state_of_solver();
     Checkpoint checkpoint = impl_->checkpoint();
     checkpoint.state.memory = impl_->solver->memory();
+    Archive archive = Archive::that_writes(checkpoint.programmed);
+    HandleArms(impl_->arms).archive(archive);
     write_checkpoint(file, *impl_->model, checkpoint);
 }
 
 void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional<int> frame) {
     Simulation& d = impl_->simulation();
     Checkpoint checkpoint = read_moment(file, frame, *d.model);
+    HandleArms arms(d.model);
+    Archive archive = Archive::that_reads(checkpoint.programmed);
+    if (!checkpoint.programmed.empty() && !arms.archive(archive))
+        throw InvalidInput({file.string(), 0, {}, {}, "was made from a scene with other animated colliders"});
     const auto host = d.keep_host_state_of_solver();
     hold_as_here(*d.model, checkpoint.state.positions);
     d.drags.go_on_with(checkpoint.drags, checkpoint.drag_targets);
     d.handle_clocks.go_on_with(checkpoint.delays);
+    d.arms = std::move(arms);
     d.take_state(checkpoint.state, d.moment_of(checkpoint));
 }
 

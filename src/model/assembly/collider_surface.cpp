@@ -65,9 +65,10 @@ void with_name(const Scene& scene, const std::string& name, const Make& make) {
     try {
         make();
     } catch (const InvalidInput& error) {
-        const InputProblem& problem = error.problem();
+        InputProblem problem = error.problem();
+        const std::string file = std::exchange(problem.file, {});
         throw InvalidInput(
-            {scene.file.string(), 0, fmt::format("{}.animation", name), problem.file, error.what()});
+            {scene.file.string(), 0, fmt::format("{}.animation", name), file, InvalidInput(problem).what()});
     }
 }
 

@@ -13,7 +13,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/counted.h"
 #include "gelatin/error.h"
 #include "mesh/surface_file.h"
 #include "mesh/surface_readers.h"
@@ -78,10 +77,7 @@ VertexFrames read_frames(const AnimationFiles& of) {
         frames.frames.push_back(read_vertices(file));
         const std::size_t count = frames.frames.back().size(), wanted = frames.frames.front().size();
         if (count != wanted)
-            throw InvalidInput({file.string(),
-                                0,
-                                {},
-                                counted(count, "vertex", "vertices"),
+            throw InvalidInput({file.string(), 0, "vertices", fmt::format("{}", count),
                                 fmt::format("must be {}, as in the first file", wanted)});
     }
     return frames;
@@ -150,10 +146,7 @@ HandleAnimation make_animation(const AnimationDescription& description, const Sh
     motion.speed = description.speed;
     motion.loop = description.loop;
     if (motion.count() != vertices.size())
-        throw InvalidInput({name_of(shape),
-                            0,
-                            {},
-                            counted(vertices.size(), "vertex", "vertices"),
+        throw InvalidInput({name_of(shape), 0, "vertices", fmt::format("{}", vertices.size()),
                             fmt::format("its animation has {}", motion.count())});
     return animation;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <tuple>
+#include <utility>
 
 #include "model/drive/handle_animation.h"
 
@@ -73,6 +75,31 @@ std::vector<NodeMotion> HandleArms::motions(std::span<const Drag> before, std::s
         }
     }
     return motions;
+}
+
+bool HandleArms::archive(Archive& archive) {
+    const auto written = std::exchange(programmed_, {});
+    auto next = written.begin();
+    std::size_t count = written.size();
+    archive.value(count);
+    for (; count > 0; --count) {
+        std::size_t object = 0;
+        Programmed programmed;
+        if (next != written.end()) std::tie(object, programmed) = *next++;
+        archive.value(object);
+        archive.value(programmed.from);
+        archive.value(programmed.until);
+        archive.list(programmed.begin);
+        archive.list(programmed.end);
+        const bool fits =
+            std::any_of(model_->handles.begin(), model_->handles.end(), [&](const Handle& handle) {
+                return handle.object == object && handle.animation &&
+                       handle.count == programmed.begin.size() && handle.count == programmed.end.size();
+            });
+        if (!fits) return false;
+        programmed_.emplace(object, std::move(programmed));
+    }
+    return true;
 }
 
 }  // namespace gelatin

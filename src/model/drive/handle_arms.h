@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/archive.h"
 #include "model/drive/handles.h"
 #include "model/model.h"
 
@@ -50,6 +51,9 @@ public:
     /// @param before and after the drags at both ends
     std::vector<NodeMotion> motions(std::span<const Drag> before, std::span<const Drag> after,
                                     const HandleTimes& times, double step) const;
+
+    /// Writes or reads what programs wanted. @return whether that fits this model
+    bool archive(Archive& archive);
 
 private:
     std::shared_ptr<const Model> model_;

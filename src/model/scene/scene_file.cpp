@@ -190,9 +190,9 @@ Scene override_scene(const Scene& scene, const std::vector<std::string>& overrid
     }
     const std::filesystem::path folder = scene.file.parent_path();
     Scene named = scene;
-    const std::vector<std::shared_ptr<const Mesh>> meshes = name_meshes(named, folder);
+    const InMemory in_memory = name_meshes(named, folder);
     Scene result = read_scene(to_toml(named, folder), scene.file, overrides);
-    restore_meshes(result, meshes);
+    restore_meshes(result, in_memory);
     result.meshes = scene.meshes;
     return result;
 }

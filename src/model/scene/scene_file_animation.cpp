@@ -3,9 +3,7 @@
 namespace gelatin {
 namespace {
 
-std::filesystem::path read_path(TableReader& reader, const char* key, const std::filesystem::path& folder) {
-    std::string path;
-    reader.read(key, path);
+std::filesystem::path placed(const std::string& path, const std::filesystem::path& folder) {
     return path.empty() ? std::filesystem::path() : folder / path;
 }
 
@@ -21,7 +19,9 @@ AnimationDescription read_animation(TableReader reader, const std::filesystem::p
     AnimationDescription animation;
     const std::string source = reader.at_most_one_of({"clip", "files", "by_program"});
     if (source == "files") {
-        AnimationFiles files{read_path(reader, "files", folder)};
+        std::string pattern;
+        reader.read("files", pattern);
+        AnimationFiles files{placed(pattern, folder)};
         reader.read("rate", files.rate);
         animation.source = files;
     } else if (source == "by_program") {
@@ -40,7 +40,9 @@ AnimationDescription read_animation(TableReader reader, const std::filesystem::p
 SkeletonDescription read_skeleton(TableReader reader, const std::filesystem::path& folder) {
     SkeletonDescription skeleton;
     reader.require({"file", "radius"});
-    skeleton.file = read_path(reader, "file", folder);
+    std::string file;
+    reader.read("file", file);
+    skeleton.file = placed(file, folder);
     reader.read("radius", skeleton.radius);
     reader.read("clip", skeleton.clip);
     read_timing(reader, skeleton.start, skeleton.speed, skeleton.loop);

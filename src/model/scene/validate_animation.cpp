@@ -29,7 +29,11 @@ void check_frames(const ValueChecks& checks, const FieldPath& field, const Anima
         if (frame.size() != count)
             return checks.fail((field / "frames")[f], counted(frame.size(), "vertex", "vertices"),
                                fmt::format("must be {}, as in the first frame", count));
-        for (std::size_t v = 0; v < count; ++v) checks.check((field / "frames")[f][v], frame[v]);
+        for (std::size_t v = 0; v < count; ++v) {
+            const glm::dvec3& p = frame[v];
+            if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+            return checks.fail((field / "frames")[f], text_of(p), fmt::format("vertex {} must be finite", v));
+        }
     }
 }
 
@@ -43,8 +47,11 @@ void check_animation(const ValueChecks& checks, const FieldPath& field, const An
         clip && !(file && is_gltf(file->file)))
         checks.fail(field / "clip", text_of(clip->name), "needs a shape from a .gltf or .glb file");
     if (const auto* files = std::get_if<AnimationFiles>(&animation.source)) {
-        if (!file) checks.fail(field / "files", "", "needs a shape from a file with the same vertices");
-        checks.check_text(field / "files", files->pattern.filename().string());
+        const std::string pattern = files->pattern.filename().string();
+        checks.check_text(field / "files", pattern);
+        if (!file)
+            checks.fail(field / "files", text_of(pattern),
+                        "needs a shape from a file with the same vertices");
         checks.check(field / "rate", files->rate, kPositive);
     }
     if (const auto* frames = std::get_if<AnimationFrames>(&animation.source))

@@ -141,18 +141,23 @@ ShapeMesh take_shape_mesh(Reader& in) {
     return mesh;
 }
 
-void add(const std::vector<std::shared_ptr<const Mesh>>& in_memory, ArrayWriter& out) {
-    out.add(std::vector<std::uint64_t>{in_memory.size()});
-    for (const auto& mesh : in_memory) {
+void add(const InMemory& in_memory, ArrayWriter& out) {
+    out.add(std::vector<std::uint64_t>{in_memory.meshes.size()});
+    for (const auto& mesh : in_memory.meshes) {
         out.add(mesh->vertices);
         out.add(mesh->triangles);
         out.add(mesh->tets);
         out.add(mesh->attributes);
     }
+    out.add(std::vector<std::uint64_t>{in_memory.frames.size()});
+    for (const InMemory::Frames& frames : in_memory.frames) {
+        out.add(std::vector<std::uint64_t>{frames->size()});
+        for (const std::vector<glm::dvec3>& frame : *frames) out.add(frame);
+    }
 }
 
-std::vector<std::shared_ptr<const Mesh>> take_meshes_in_memory(Reader& in) {
-    std::vector<std::shared_ptr<const Mesh>> in_memory;
+InMemory take_in_memory(Reader& in) {
+    InMemory in_memory;
     for (auto left = in.take_one<std::uint64_t>(); left > 0; --left) {
         Mesh mesh;
         in.take(mesh.vertices);
@@ -160,7 +165,13 @@ std::vector<std::shared_ptr<const Mesh>> take_meshes_in_memory(Reader& in) {
         in.take(mesh.tets);
         in.take(mesh.attributes);
         Reader::require(!find_problem(mesh));
-        in_memory.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+        in_memory.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+    }
+    for (auto left = in.take_one<std::uint64_t>(); left > 0; --left) {
+        std::vector<std::vector<glm::dvec3>> frames;
+        for (auto count = in.take_one<std::uint64_t>(); count > 0; --count) in.take(frames.emplace_back());
+        in_memory.frames.push_back(
+            std::make_shared<const std::vector<std::vector<glm::dvec3>>>(std::move(frames)));
     }
     return in_memory;
 }
@@ -206,7 +217,7 @@ Scene restored_scene(const RecordedScene& recorded) {
     Scene scene = parse_scene(recorded.text, recorded.file);
     const std::string bytes = decompressed(recorded.meshes, kMostBytes);
     Reader in(bytes);
-    restore_meshes(scene, take_meshes_in_memory(in));
+    restore_meshes(scene, take_in_memory(in));
     std::vector<Place> places;
     in.take(places);
     SceneMeshes made;

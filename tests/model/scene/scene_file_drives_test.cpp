@@ -98,7 +98,8 @@ TEST_F(SceneFileDrives, CanBeOverridden) {
 }
 
 TEST_F(SceneFileDrives, RefusesWrongHandles) {
-    EXPECT_EQ(handle_error("pivot = [0, 0, 0]"), "scene.toml:5: object.bar.handle[0]: needs \"region\"");
+    EXPECT_EQ(handle_error("pivot = [0, 0, 0]"),
+              "scene.toml:5: object.bar.handle[0]: must have exactly one of region or skeleton");
     EXPECT_EQ(handle_error("region = {plane = [1, 0, 0]}\nrelese = 2"),
               "scene.toml:7: object.bar.handle[0].relese = 2: unknown key (did you mean \"release\"?)");
     EXPECT_EQ(handle_error("region = {plane = [1, 0, 0]}\ndrag = {scale = 2}"),

@@ -177,6 +177,30 @@ interpolation = "smooth"
 when_blocked = "stops"
 pivot = [1, 1, 1]
 surface_velocity = [0.5, 0, 0]
+
+[[collider]]
+shape = { file = "walk.glb" }
+position = [0, 0, 0]
+rotation = [0, 0, 0]
+friction = 0.4
+restitution = 0.3
+animation = { clip = "walk", start = 1, speed = 2, loop = true }
+
+[[collider]]
+shape = { file = "waves/wave_1.obj" }
+position = [0, 0, 0]
+rotation = [0, 0, 0]
+friction = 0.4
+restitution = 0.3
+animation = { files = "waves/wave_*.obj", rate = 30 }
+
+[[collider]]
+shape = { box = [1, 1, 1], segments = [2, 2, 2] }
+position = [0, 0, 0]
+rotation = [0, 0, 0]
+friction = 0.4
+restitution = 0.3
+animation = { by_program = true }
 )";
 
 TEST(SceneWriter, WritesHowCollidersMove) {
@@ -189,6 +213,17 @@ TEST(SceneWriter, WritesHowCollidersMove) {
     save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
     const std::string copy = read_file(folder.path() / "copy.toml");
     EXPECT_EQ(copy.substr(copy.find("[[collider]]")), kMovingColliders);
+}
+
+TEST(SceneWriter, WritesSkeletons) {
+    const TemporaryFolder folder;
+    const std::string handle =
+        "[[object.handle]]\nskeleton = { file = \"arm.glb\", radius = 0.05, clip = \"wave\", start = 0.5, "
+        "speed = 2, loop = true }\nrelease = 3\n";
+    write_file(folder.path() / "scene.toml",
+               "[[material]]\nname = 'm'\n[[object]]\nname = 'o'\nshape = {sphere = 1}\n" + handle);
+    save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
+    EXPECT_THAT(read_file(folder.path() / "copy.toml"), ::testing::HasSubstr(handle));
 }
 
 TEST(SceneWriter, WritesWhichHandlesStop) {

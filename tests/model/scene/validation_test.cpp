@@ -143,7 +143,35 @@ const Rule kSettingRules[] = {
      "collider[0].keyframes = [{...}]: a plane does not move: a box can"},
     {"collider_stops", "[[collider]]\nshape = {sphere = 1}\nwhen_blocked = 'stops'",
      BREAKS(add_collider(s).shape = SphereShape{1}; s.colliders[0].when_blocked = WhenBlocked::stops),
-     "collider[0].when_blocked = \"stops\": needs keyframes"},
+     "collider[0].when_blocked = \"stops\": needs keyframes or an animation"},
+    {"clip_of_a_box", "[[collider]]\nshape = {box = [1, 1, 1]}\nanimation = {clip = 'a'}",
+     BREAKS(add_collider(s).shape = BoxShape{{1, 1, 1}};
+            s.colliders[0].animation = AnimationDescription{AnimationClip{"a"}}),
+     "collider[0].animation.clip = \"a\": needs a shape from a .gltf or .glb file"},
+    {"files_of_a_box", "[[collider]]\nshape = {box = [1, 1, 1]}\nanimation = {files = 'a*.obj'}",
+     BREAKS(add_collider(s).shape = BoxShape{{1, 1, 1}};
+            s.colliders[0].animation = AnimationDescription{AnimationFiles{"a*.obj"}}),
+     "collider[0].animation.files = \"a*.obj\": needs a shape from a file with the same vertices"},
+    {"file_rate", "[[collider]]\nshape = {file = 'a.obj'}\nanimation = {files = 'a*.obj', rate = 0}",
+     BREAKS(add_collider(s).shape = FileShape{"a.obj"};
+            s.colliders[0].animation = AnimationDescription{AnimationFiles{"a*.obj", 0.0}}),
+     "collider[0].animation.rate = 0: must be greater than 0"},
+    {"animation_start", "[[collider]]\nshape = {file = 'a.glb'}\nanimation = {start = -1}",
+     BREAKS(add_collider(s).shape = FileShape{"a.glb"};
+            s.colliders[0].animation = AnimationDescription{AnimationClip{}, -1.0}),
+     "collider[0].animation.start = -1: must be 0 or more"},
+    {"animation_speed", "[[collider]]\nshape = {file = 'a.glb'}\nanimation = {speed = 0}",
+     BREAKS(add_collider(s).shape = FileShape{"a.glb"};
+            s.colliders[0].animation = AnimationDescription{AnimationClip{}, 0.0, 0.0}),
+     "collider[0].animation.speed = 0: must be greater than 0"},
+    {"animated_plane", "[[collider]]\nshape = {plane = [0, 1, 0]}\nanimation = {by_program = true}",
+     BREAKS(add_collider(s).animation = AnimationDescription{AnimationByProgram{}}),
+     "collider[0].animation: a plane does not move: a box can"},
+    {"animated_solid",
+     "[[collider]]\nshape = {sphere = 1}\nanimation = {by_program = true}\n[collision]\nresponse = 'restore'",
+     BREAKS(restore(s); add_collider(s).shape = SphereShape{1};
+            s.colliders[0].animation = AnimationDescription{AnimationByProgram{}}),
+     "collider[0].animation: needs collision.response = \"contact\""},
     {"plane_stops", "[[collider]]\nshape = {plane = [0, 1, 0]}\nwhen_blocked = 'stops'",
      BREAKS(add_collider(s).when_blocked = WhenBlocked::stops),
      "collider[0].when_blocked = \"stops\": a plane does not move: a box can"},
