@@ -24,7 +24,7 @@ from .shapes import File, Mesh
 FIELDS = {
     "Scene": {"material": "materials", "object": "objects", "rigid": "objects", "collider": "colliders", "attachment": "attachments"},
     "CollisionSettings": {"pair": "pairs"},
-    "Object": {"handle": "handles", "load": "loads", "part": "parts", "mass": "rigid.mass", "inertia": "rigid.inertia"},
+    "Object": {"handle": "handles", "load": "loads", "part": "parts", "cavity": "cavities", "mass": "rigid.mass", "inertia": "rigid.inertia"},
     "Load": {"from": "start", "force": "kind.sum", "traction": "kind.stress", "pressure": "kind.pressure"},
     "Attachment": {
         "region": "where",

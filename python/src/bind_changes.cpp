@@ -1,10 +1,12 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -109,6 +111,13 @@ void bind_changes(nb::class_<PythonSimulator>& simulator) {
                 self.use([&](Simulator& s) { s.set_motor(attachment, motor); });
             },
             nb::arg("attachment"), nb::arg("motor"))
+        .def(
+            "set_cavity",
+            [](PythonSimulator& self, std::size_t cavity, std::optional<double> pressure,
+               std::optional<double> amount) {
+                self.use([&](Simulator& s) { s.set_cavity(cavity, {pressure, amount}); });
+            },
+            nb::arg("cavity"), nb::arg("pressure").none(), nb::arg("amount").none())
         .def(
             "set_pulls",
             [](PythonSimulator& self, const std::vector<PullValues>& values) {

@@ -56,9 +56,9 @@ nb::dict scene_defaults() {
     return defaults_of<SimulationSettings, MaterialPair, CollisionSettings, SpringKinds, Material,
                        SphereShape, BoxShape, CapsuleShape, TextShape, MesherSettings, Keyframe,
                        DragDescription, HandleDescription, ForceLoad, TractionLoad, PressureLoad,
-                       LoadDescription, PartDescription, StartDescription, RigidDescription,
-                       ObjectDescription, PlaneCollider, ColliderDescription, JointSpring, MotorKeyframe,
-                       JointMotor, AttachmentDescription, CameraDescription, Scene>();
+                       LoadDescription, PartDescription, StartDescription, RigidDescription, CavityKeyframe,
+                       CavityDescription, ObjectDescription, PlaneCollider, ColliderDescription, JointSpring,
+                       MotorKeyframe, JointMotor, AttachmentDescription, CameraDescription, Scene>();
 }
 
 }  // namespace gelatin::python

@@ -37,7 +37,8 @@ ElasticSystem<Real>::ElasticSystem(std::shared_ptr<const Model> model)
       neo_hookean_(model_->neo_hookean_tets.size()),
       corner_forces_(4 * neo_hookean_.size()),
       forces_(model_->node_count()),
-      diagonal_(model_->node_count()) {
+      diagonal_(model_->node_count()),
+      cavities_(model_) {
     std::copy(model_->incidence.starts.begin(), model_->incidence.starts.end(), spring_starts_.begin());
     for (std::size_t e = 0; e < half_springs_.size(); ++e) {
         const std::uint32_t entry = model_->incidence.entries[e];
@@ -54,7 +55,8 @@ ElasticSystem<Real>::ElasticSystem(std::shared_ptr<const Model> model)
 
 template <class Real>
 void ElasticSystem<Real>::linearise(std::span<const Vec4<Real>> positions,
-                                    std::span<const Vec4<Real>> velocities, Real inverse_step) {
+                                    std::span<const Vec4<Real>> velocities, Real inverse_step,
+                                    std::span<const double> drives) {
     linearise_springs(positions, velocities, inverse_step);
     linearise_volumes(positions);
     linearise_neo_hookean(positions, velocities, inverse_step);
@@ -65,6 +67,8 @@ void ElasticSystem<Real>::linearise(std::span<const Vec4<Real>> positions,
             diagonal_[n].add_outer(slope_weights_[entry / 4], slopes_[entry]);
         }
     });
+    cavities_.linearise(positions, drives);
+    cavities_.add(forces_, diagonal_);
     if (neo_hookean_.empty()) return;
     const NodeTets& corners = model_->neo_hookean_corners;
     for_each_index(model_->node_count(), [&](std::size_t n) {
@@ -196,6 +200,7 @@ void ElasticSystem<Real>::linearise_neo_hookean(std::span<const Vec4<Real>> posi
 
 template <class Real>
 void ElasticSystem<Real>::begin_product(const ModelObject& body) {
+    cavities_.begin_product(body, displacements);
     const Model& model = *model_;
     const auto at = [&](std::uint32_t n) { return Vec3<Real>(displacements[n]); };
     for_each_index(body.tets, [&](std::uint32_t t) {
@@ -246,6 +251,7 @@ void ElasticSystem<Real>::multiply(const Range& nodes, std::span<Vec3<Real>> pro
         }
         product[n] = sum;
     }
+    cavities_.multiply(nodes, displacements, product);
 }
 
 template class ElasticSystem<double>;
@@ -257,7 +263,8 @@ ElasticSystem<float>::ElasticSystem(std::shared_ptr<const Model> model)
       left_out_nodes_(arrays_.groups.size()),
       left_out_tets_(arrays_.tets.size()),
       forces_(model_->node_count()),
-      diagonal_(model_->node_count()) {}
+      diagonal_(model_->node_count()),
+      cavities_(model_) {}
 
 void ElasticSystem<float>::leave_out(std::span<const std::uint8_t> asleep) {
     const std::vector<std::uint32_t> object_of = objects_of_nodes(*model_);
@@ -273,7 +280,8 @@ void ElasticSystem<float>::leave_out(std::span<const std::uint8_t> asleep) {
 }
 
 void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
-                                     std::span<const Vec4<float>> velocities, float inverse_step) {
+                                     std::span<const Vec4<float>> velocities, float inverse_step,
+                                     std::span<const double> drives) {
     arrays_.is_damped =
         std::any_of(velocities.begin(), velocities.end(), [](const auto& v) { return v.w > 0.0f; });
     const ElasticStart start{positions.data(), velocities.data(), inverse_step};
@@ -298,6 +306,8 @@ void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
     for_each_group(arrays_.groups.size(), [&](std::size_t g) {
         if (left_out_nodes_[g] == 0) linearise_nodes(start, g, arrays_, forces_.data(), diagonal_.data());
     });
+    cavities_.linearise(positions, drives);
+    cavities_.add(forces_, diagonal_);
 }
 
 // The volume term's stress, as above.
@@ -314,6 +324,7 @@ void ElasticSystem<float>::find_points(std::span<const Vec4<float>> positions) {
 
 void ElasticSystem<float>::multiply(const Range& nodes, std::span<Vec3<float>> product) const {
     multiply_nodes(nodes, arrays_, displacements.data(), product.data());
+    cavities_.multiply(nodes, displacements, product);
 }
 
 }  // namespace gelatin::cpu
