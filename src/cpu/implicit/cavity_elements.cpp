@@ -19,9 +19,10 @@ CavityElements<Real>::CavityElements(std::shared_ptr<const Model> model) : model
     });
     of_cavities_.resize(cavities);
     for (std::uint32_t k = 0; k < corners_.size(); ++k) of_cavities_[corners_[k].cavity].push_back(k);
+    volumes_.resize(cavities);
     pressures_.resize(cavities);
     stiffnesses_.resize(cavities);
-    values_.resize(cavities);
+    curvatures_ = values_ = stiffnesses_;
     gradients_.resize(corners_.size());
     arms_.resize(edges_.size());
 }
@@ -50,6 +51,8 @@ void CavityElements<Real>::linearise(std::span<const Vec4<Real>> positions, std:
     for (std::size_t c = 0; c < of_cavities_.size(); ++c) {
         const Cavity& cavity = model_->cavities[c];
         const double volume = enclosed_volume(cavity.faces, positions);
+        volumes_[c] = volume;
+        curvatures_[c] = Real(0);
         pressures_[c] = static_cast<Real>(cavity.pressure(drives[c], volume));
         stiffnesses_[c] = static_cast<Real>(cavity.stiffness(drives[c], volume));
     }
@@ -77,6 +80,19 @@ void CavityElements<Real>::add(std::span<Vec3<Real>> forces,
     }
 }
 
+// For the rotations w = e_k x r the sum of w . H w over all three axes is 2 sum of g . r, which is 6 V.
+template <class Real>
+void CavityElements<Real>::balance_rotations(const ModelObject& body, double resistance) {
+    double sum = 0.0;
+    for (std::uint32_t c = body.cavities.first; c < body.cavities.end(); ++c)
+        sum += 6.0 * static_cast<double>(pressures_[c]) * volumes_[c];
+    // Springs, of which those that are compressed do not count, resist by half as much again.
+    constexpr double kMost = 2.0;
+    const double share = sum > 0.0 ? std::min(resistance / sum, kMost) : 0.0;
+    for (std::uint32_t c = body.cavities.first; c < body.cavities.end(); ++c)
+        curvatures_[c] = static_cast<Real>(share) * pressures_[c];
+}
+
 template <class Real>
 void CavityElements<Real>::begin_product(const ModelObject& body, std::span<const Vec4<Real>> displacements) {
     for (std::uint32_t c = body.cavities.first; c < body.cavities.end(); ++c) {
@@ -97,7 +113,7 @@ void CavityElements<Real>::multiply(const Range& nodes, std::span<const Vec4<Rea
         for (std::uint32_t e = corner->edges.first; e < corner->edges.end(); ++e)
             bent += glm::cross(Vec3<Real>(displacements[edges_[e].other]), arms_[e]);
         const auto k = static_cast<std::size_t>(corner - corners_.begin());
-        product[corner->node] += values_[corner->cavity] * gradients_[k] - pressures_[corner->cavity] * bent;
+        product[corner->node] += values_[corner->cavity] * gradients_[k] - curvatures_[corner->cavity] * bent;
     }
 }
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
-#include "model/spring_packing.h"
 
 namespace gelatin::cpu {
 
@@ -24,6 +24,10 @@ public:
 
     /// @param positions shape [nodes] @param drives of cavities (Cavity::drive_at)
     void linearise(std::span<const Vec4<Real>> positions, std::span<const double> drives);
+    /// Of each body, after it. H counts by as much as elements resist rotations, so that both together do
+    /// not, and until then it does not count.
+    /// @param resistance sum of w . K w over the rotations w about three axes, of 1 rad each [J]
+    void balance_rotations(const ModelObject& body, double resistance);
     /// What they add, once linearised. @param diagonal 3 x 3 blocks of K
     void add(std::span<Vec3<Real>> forces, std::span<SymmetricMatrix<Real>> diagonal) const;
 
@@ -50,9 +54,10 @@ private:
     std::vector<Corner> corners_;                          // by node, then by cavity
     std::vector<std::vector<std::uint32_t>> of_cavities_;  // their corners
     std::vector<Edge> edges_;
-    // Of cavities: p [Pa], k [Pa/m^3], k g . d [Pa]; of corners: g [m^2]; of edges: (next - previous) / 6
-    // [m].
-    std::vector<Real> pressures_, stiffnesses_, values_;
+    // Of cavities: V [m^3], p [Pa], k [Pa/m^3], the part of p that H counts by [Pa], k g . d [Pa]; of
+    // corners: g [m^2]; of edges: (next - previous) / 6 [m].
+    std::vector<double> volumes_;
+    std::vector<Real> pressures_, stiffnesses_, curvatures_, values_;
     std::vector<Vec3<Real>> gradients_, arms_;
 };
 

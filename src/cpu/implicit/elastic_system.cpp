@@ -25,6 +25,45 @@ Real largest_stretch(const Mat3<Real>& f) {
     return std::sqrt(most);
 }
 
+// Sum of w . K w over the rotations w about three axes, of 1 rad each [J]. @param product shape [nodes]
+template <class Real>
+double resistance_to_rotations(ElasticSystem<Real>& system, const ModelObject& body,
+                               std::span<const Vec4<Real>> positions, std::span<Vec3<Real>> product) {
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3<Real> w(0);
+        w[axis] = Real(1);
+        const auto each = [&](const auto& visit) {
+            for (std::uint32_t n = body.nodes.first; n < body.nodes.end(); ++n) visit(n);
+        };
+        each([&](std::uint32_t n) {
+            const Vec3<Real> arm(positions[n] - positions[body.nodes.first]);
+            system.displacements[n] = Vec4<Real>(glm::cross(w, arm), 0);
+        });
+        system.begin_product(body);
+        system.multiply(body.nodes, product);
+        each([&](std::uint32_t n) {
+            sum += static_cast<double>(glm::dot(Vec3<Real>(system.displacements[n]), product[n]));
+            system.displacements[n] = Vec4<Real>(0);
+        });
+    }
+    return sum;
+}
+
+// Once all else is linearised.
+template <class Real>
+void balance_cavities(ElasticSystem<Real>& system, CavityElements<Real>& cavities, const Model& model,
+                      std::span<const Vec4<Real>> positions) {
+    if (model.cavities.empty()) return;
+    std::vector<Vec3<Real>> product(model.node_count());
+    for_each_index(0, model.body_count(), 1, [&](std::size_t o) {
+        const ModelObject& body = model.objects[o];
+        if (body.cavities.count > 0)
+            cavities.balance_rotations(body,
+                                       resistance_to_rotations(system, body, positions, std::span(product)));
+    });
+}
+
 }  // namespace
 
 template <class Real>
@@ -69,6 +108,7 @@ void ElasticSystem<Real>::linearise(std::span<const Vec4<Real>> positions,
     });
     cavities_.linearise(positions, drives);
     cavities_.add(forces_, diagonal_);
+    balance_cavities(*this, cavities_, *model_, positions);
     if (neo_hookean_.empty()) return;
     const NodeTets& corners = model_->neo_hookean_corners;
     for_each_index(model_->node_count(), [&](std::size_t n) {
@@ -308,6 +348,7 @@ void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
     });
     cavities_.linearise(positions, drives);
     cavities_.add(forces_, diagonal_);
+    balance_cavities(*this, cavities_, *model_, positions);
 }
 
 // The volume term's stress, as above.

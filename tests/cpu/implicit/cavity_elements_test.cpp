@@ -21,7 +21,7 @@ class CavityElementsTest : public testing::TestWithParam<GasLaw> {
 protected:
     CavityElementsTest() {
         Scene scene;
-        scene.materials = {{.name = "rubber"}};
+        scene.materials.emplace_back().name = "rubber";
         ObjectDescription& ball = scene.objects.emplace_back();
         ball.name = "ball";
         ball.shape = MeshShape{test::sphere_shell(0.3, 0.4, 3, 2)};
@@ -67,6 +67,10 @@ protected:
         elements.linearise(positions_, drives_);
         std::vector<Vec4<double>> displacements;
         for (const Vec3<double>& each : d) displacements.emplace_back(each, 0.0);
+        // Elements that resist rotations by as much as gas does.
+        const double volume = enclosed_volume<Vec4<double>>(model_->cavities[0].faces, positions_);
+        elements.balance_rotations(model_->objects[0],
+                                   6.0 * volume * model_->cavities[0].pressure(drives_[0], volume));
         elements.begin_product(model_->objects[0], displacements);
         Field all(d.size(), Vec3<double>(0.0));
         elements.multiply(model_->objects[0].nodes, displacements, all);
