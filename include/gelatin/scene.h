@@ -331,6 +331,36 @@ struct StartDescription {
     double scatter = 0.0;   ///< then a random displacement of each coordinate by up to this [m], >= 0
 };
 
+/// How the gas in a cavity presses.
+enum class GasLaw {
+    sealed,    ///< by its volume, at the same temperature: what is in it stays
+    constant,  ///< at a regulated gauge pressure
+};
+
+/// What a cavity has instead: the pressure of GasLaw::constant, or the amount of GasLaw::sealed.
+struct CavityGas {
+    std::optional<double> pressure = {}, amount = {};  ///< as of CavityDescription; one of both
+};
+
+/// The same at one time: linear in between, constant before the first and after the last.
+struct CavityKeyframe {
+    double time = 0.0;                                 ///< [s], >= 0
+    std::optional<double> pressure = {}, amount = {};  ///< as of CavityGas
+};
+
+/// Gas in a hollow of a deformable object; for SolverKind::implicit (docs/cavities.md).
+struct CavityDescription {
+    std::string name = {};  ///< in statistics; empty: "cavity 1", by its place in the object
+    /// The hollow whose surface has all of its nodes in it. Empty: the only one that the object has.
+    std::optional<Region> region = {};
+    GasLaw law = GasLaw::sealed;
+    double pressure = 0.0;      ///< at the hollow's volume at rest, above the ambient one [Pa]
+    double amount = 1.0;        ///< of a sealed gas, as a factor of what has this pressure, > 0
+    double ambient = 101325.0;  ///< pressure outside [Pa], > 0
+    std::vector<CavityKeyframe> keyframes = {};  ///< in ascending order of time
+    int line = 0;                                ///< in the scene file, for later messages
+};
+
 /// What a rigid object has where its shape and the density of its material do not say it.
 struct RigidDescription {
     std::optional<double> mass = {};  ///< [kg], > 0; empty: by density
@@ -373,6 +403,8 @@ struct ObjectDescription {
     /// friction, thickness, contact_stiffness and restitution count; it has no mesher, start, parts, pins and
     /// handles. Empty: the object is deformable.
     std::optional<RigidDescription> rigid = {};
+
+    std::vector<CavityDescription> cavities = {};  ///< with different names, of different hollows
 };
 
 struct PlaneCollider {

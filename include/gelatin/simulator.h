@@ -108,6 +108,14 @@ struct AttachmentStatus {
     std::optional<JointStatus> joint = {};  ///< of those with a coordinate
 };
 
+/// The gas of a cavity when the last step has ended.
+struct CavityStatus {
+    std::string name;        ///< CavityDescription::name, or "cavity 1", by its place in the object
+    std::size_t object = 0;  ///< index in Scene::objects
+    double volume = 0.0;     ///< [m^3]
+    double pressure = 0.0;   ///< above the ambient one [Pa]
+};
+
 /// The measurements of one frame. SI units.
 struct FrameStatistics {
     int frame = 0;
@@ -124,6 +132,7 @@ struct FrameStatistics {
     std::vector<ContactForce> contact_forces;        ///< by object, then others, then colliders
     std::vector<HoldingForce> holding_forces;        ///< in the order of Simulator::held_nodes
     std::vector<AttachmentStatus> attachments;       ///< in the order of Scene::attachments
+    std::vector<CavityStatus> cavities;              ///< by object, in the order of its cavities
 };
 
 /// Node positions and velocities on the host. Nodes of colliders' surfaces come after those of bodies.
@@ -268,6 +277,14 @@ public:
     /// @throws InvalidInput if there is no such collider, and for a wrong number of vertices or ones that are
     ///   not finite
     void set_collider_vertices(const std::string& collider, const std::vector<glm::dvec3>& vertices);
+    /// The gas that a cavity has from now on, in place of its keyframes, until reset(). Part of checkpoints.
+    /// @param cavity index in cavities()
+    /// @throws InvalidInput as validate(), and if there is no such cavity
+    void set_cavity(std::size_t cavity, const CavityGas& gas);
+    /// @throws InvalidInput if the object has none of this name, naming those that there are
+    std::size_t cavity_index(std::string_view object, std::string_view name) const;
+    /// By object, in the order of ObjectDescription::cavities; empty for recordings.
+    std::vector<CavityStatus> cavities() const;
 
     /// Called at the begin and at the end of each step, on its thread; empty: not any more. It may read and
     /// change the state, but not step. What it throws comes out of step(); if that is at the end, the step

@@ -149,6 +149,39 @@ class Rigid:
 
 
 @dataclass(slots=True)
+class CavityKeyframe:
+    """What a cavity has at one time: linear in between, constant before the first and after the last."""
+
+    #: [s], >= 0
+    time: float = 0.0
+    #: above the ambient pressure, of a constant law [Pa]
+    pressure: float | None = None
+    #: of a sealed gas, as a factor, > 0
+    amount: float | None = None
+
+
+@dataclass(slots=True)
+class Cavity:
+    """Gas in a hollow of a deformable object. For the solver "implicit"."""
+
+    #: above the ambient pressure, while the hollow has the volume that it has at rest [Pa]
+    pressure: float = 0.0
+    #: "sealed": p_absolute V stays what it is; "constant": a regulated pressure
+    law: Literal["sealed", "constant"] = "sealed"
+    #: of a sealed gas, as a factor of what has this pressure, > 0
+    amount: float = 1.0
+    #: which hollow: the one whose surface has all of its nodes in the region; None: the only one
+    region: Region | None = None
+    #: pressure outside [Pa], > 0
+    ambient: float = 101325.0
+    #: in ascending order of time
+    keyframes: list[CavityKeyframe] = field(default_factory=list)
+    #: in statistics; empty: "cavity 1", by its place in the object
+    name: str = ""
+    line: int = field(default=0, repr=False)
+
+
+@dataclass(slots=True)
 class Object:
     """One body of a scene: deformable, or with `rigid` a rigid one.
 
@@ -188,6 +221,8 @@ class Object:
     up: Literal["x", "y", "z"] | None = None
     #: None: the object is deformable
     rigid: Rigid | None = None
+    #: with different names, of different hollows
+    cavities: list[Cavity] = field(default_factory=list)
     line: int = field(default=0, repr=False)
     pins_line: int = field(default=0, repr=False)
 

@@ -342,6 +342,44 @@ class Simulator:
         """
         return self._core.attachments()
 
+    def set_cavity(
+        self,
+        cavity: Union[int, str],
+        *,
+        object: str | None = None,
+        pressure: float | None = None,
+        amount: float | None = None,
+    ) -> None:
+        """What a cavity has from now on, in place of its keyframes, until `reset`. Checkpoints have it.
+
+        cavity: its place in `cavities`, or its name.
+        object: the name of the object that it is in; needed where cavities of several have this name.
+        pressure: of the law "constant", above the ambient one [Pa].
+        amount: of the law "sealed", as of `gelatin.Cavity`, > 0.
+
+        Raises InvalidInput for a cavity that there is not, and for values that are not allowed.
+        """
+        self._core.set_cavity(self._cavity_of(cavity, object), pressure, amount)
+
+    def cavities(self) -> list[dict[str, Any]]:
+        """For each cavity, object by object: `name`, `object`, `volume` [m^3] and `pressure` above the ambient one [Pa].
+
+        They are those of the end of the last step. A recording has no cavities.
+        """
+        return self._core.cavities()
+
+    def _cavity_of(self, cavity: Union[int, str], object: str | None) -> int:
+        """Its place in `cavities`. Raises InvalidInput if there is none of this name, or several."""
+        if not isinstance(cavity, str):
+            return whole_number("cavity", cavity)
+        all_of_them = [(status["object"], status["name"]) for status in self.cavities()]
+        found = [k for k, (owner, name) in enumerate(all_of_them) if name == cavity and object in (None, owner)]
+        if len(found) != 1:
+            known = ", ".join(f"'{name}' of '{owner}'" for owner, name in all_of_them) or "none"
+            what = "is the name of no cavity" if not found else f"is the name of {len(found)} cavities: an object has to be given"
+            raise InvalidInput(f"cavity = {cavity!r}: {what}; there is {known}")
+        return found[0]
+
     def _place_of(self, attachment: Union[int, str]) -> int:
         """Of an attachment in `attachments`, by its name. Raises InvalidInput if there is none."""
         if isinstance(attachment, str):

@@ -26,8 +26,8 @@ from .shapes import File, Mesh
 FIELDS = {
     "Scene": {"material": "materials", "object": "objects", "rigid": "objects", "collider": "colliders", "attachment": "attachments"},
     "CollisionSettings": {"pair": "pairs"},
-    "Object": {"handle": "handles", "load": "loads", "part": "parts", "mass": "rigid.mass", "inertia": "rigid.inertia"},
     "Animation": {"clip": "source.name", "files": "source.pattern", "rate": "source.rate"},
+    "Object": {"handle": "handles", "load": "loads", "part": "parts", "cavity": "cavities", "mass": "rigid.mass", "inertia": "rigid.inertia"},
     "Load": {"from": "start", "force": "kind.sum", "traction": "kind.stress", "pressure": "kind.pressure"},
     "Attachment": {
         "region": "where",

@@ -150,6 +150,12 @@ void bind_simulator(nb::module_& module) {
                 return self.use([](const Simulator& s) { return to_list(s.attachments()); });
             },
             nb::sig("def attachments(self) -> list[dict[str, typing.Any]]"))
+        .def(
+            "cavities",
+            [](PythonSimulator& self) {
+                return self.use([](const Simulator& s) { return to_list(s.cavities(), s); });
+            },
+            nb::sig("def cavities(self) -> list[dict[str, typing.Any]]"))
         .def("statistics", &statistics_of, nb::sig("def statistics(self) -> dict[str, typing.Any]"))
         .def(
             "save_checkpoint",

@@ -60,6 +60,11 @@ struct Names<MesherKind> {
         {{"auto", MesherKind::automatic}, {"tetgen", MesherKind::tetgen}, {"lattice", MesherKind::lattice}}};
 };
 template <>
+struct Names<GasLaw> {
+    static constexpr std::array<std::pair<const char*, GasLaw>, 2> kAll{
+        {{"sealed", GasLaw::sealed}, {"constant", GasLaw::constant}}};
+};
+template <>
 struct Names<Interpolation> {
     static constexpr std::array<std::pair<const char*, Interpolation>, 2> kAll{
         {{"linear", Interpolation::linear}, {"smooth", Interpolation::smooth}}};

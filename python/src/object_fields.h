@@ -157,11 +157,38 @@ struct Fields<RigidDescription> {
 };
 
 template <>
+struct Fields<CavityKeyframe> {
+    static constexpr const char* kClass = "CavityKeyframe";
+    static void visit(CavityKeyframe& k, auto&& field) {
+        auto& [time, pressure, amount] = k;
+        field("time", time);
+        field("pressure", pressure);
+        field("amount", amount);
+    }
+};
+
+template <>
+struct Fields<CavityDescription> {
+    static constexpr const char* kClass = "Cavity";
+    static void visit(CavityDescription& c, auto&& field) {
+        auto& [name, region, law, pressure, amount, ambient, keyframes, line] = c;
+        field("name", name);
+        field("region", region);
+        field("law", law);
+        field("pressure", pressure);
+        field("amount", amount);
+        field("ambient", ambient);
+        field("keyframes", keyframes);
+        field("line", line);
+    }
+};
+
+template <>
 struct Fields<ObjectDescription> {
     static constexpr const char* kClass = "Object";
     static void visit(ObjectDescription& o, auto&& field) {
         auto& [name, shape, mesher, material, position, rotation, scale, velocity, spin, start, pins, handles,
-               loads, color, line, parts, skin, up, pins_line, rigid] = o;
+               loads, color, line, parts, skin, up, pins_line, rigid, cavities] = o;
         field("name", name);
         field("shape", shape);
         field("mesher", mesher);
@@ -182,6 +209,7 @@ struct Fields<ObjectDescription> {
         field("line", line);
         field("pins_line", pins_line);
         field("rigid", rigid);
+        field("cavities", cavities);
     }
 };
 

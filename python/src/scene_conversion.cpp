@@ -57,9 +57,10 @@ nb::dict scene_defaults() {
                        SphereShape, BoxShape, CapsuleShape, TextShape, MesherSettings, Keyframe,
                        DragDescription, SkeletonDescription, HandleDescription, ForceLoad, TractionLoad,
                        PressureLoad, LoadDescription, PartDescription, StartDescription, RigidDescription,
-                       ObjectDescription, PlaneCollider, AnimationClip, AnimationFiles, AnimationFrames,
-                       AnimationDescription, ColliderDescription, JointSpring, MotorKeyframe, JointMotor,
-                       AttachmentDescription, CameraDescription, Scene>();
+                       CavityKeyframe, CavityDescription, ObjectDescription, PlaneCollider, AnimationClip,
+                       AnimationFiles, AnimationFrames, AnimationDescription, ColliderDescription,
+                       JointSpring, MotorKeyframe, JointMotor, AttachmentDescription, CameraDescription,
+                       Scene>();
 }
 
 }  // namespace gelatin::python

@@ -55,6 +55,19 @@ nb::list to_list(const std::vector<AttachmentStatus>& attachments) {
     return list;
 }
 
+nb::list to_list(const std::vector<CavityStatus>& cavities, const Simulator& simulator) {
+    nb::list list;
+    for (const CavityStatus& cavity : cavities) {
+        nb::dict all;
+        all["name"] = cavity.name;
+        all["object"] = simulator.object(cavity.object).name;
+        all["volume"] = cavity.volume;
+        all["pressure"] = cavity.pressure;
+        list.append(all);
+    }
+    return list;
+}
+
 nb::dict to_dict(const FrameStatistics& frame, const Simulator& simulator) {
     const RunReport names = describe_run(simulator);
     nb::dict all;
@@ -85,6 +98,7 @@ nb::dict to_dict(const FrameStatistics& frame, const Simulator& simulator) {
     all["contact_forces"] = contacts;
     all["holding_forces"] = holds;
     all["attachments"] = to_list(frame.attachments);
+    all["cavities"] = to_list(frame.cavities, simulator);
     return all;
 }
 

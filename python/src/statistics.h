@@ -10,6 +10,7 @@ namespace gelatin::python {
 
 /// A list of dicts.
 nanobind::list to_list(const std::vector<AttachmentStatus>& attachments);
+nanobind::list to_list(const std::vector<CavityStatus>& cavities, const Simulator& simulator);
 
 /// The measurements of a frame as a dict, with the keys of `gelatin run --stats` and names instead of
 /// indices.

@@ -4,40 +4,18 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <map>
-#include <span>
 #include <utility>
 
-#include "core/disjoint_sets.h"
-#include "mesh/edge_uses.h"
+#include "mesh/closed_pieces.h"
 #include "mesh/lattice/face_tree.h"
 
 namespace gelatin {
 namespace {
 
-// Closed sets of faces that are connected by edges, not by mere vertices: cavities may touch.
-std::vector<std::vector<std::uint32_t>> find_closed_pieces(const SurfaceMesh& surface) {
-    DisjointSets sets(surface.faces.size());
-    std::vector<std::uint32_t> open;
-    const std::vector<EdgeUse> uses = sorted_edge_uses(surface.faces);
-    for_each_edge(std::span<const EdgeUse>(uses), [&](std::span<const EdgeUse> edge) {
-        if (edge.size() == 2)
-            sets.unite(edge[0].face, edge[1].face);
-        else
-            for (const EdgeUse& use : edge) open.push_back(use.face);
-    });
-    std::map<std::uint32_t, std::vector<std::uint32_t>> pieces;
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) pieces[sets.least(f)].push_back(f);
-    for (const std::uint32_t f : open) pieces.erase(sets.least(f));
-    std::vector<std::vector<std::uint32_t>> result;
-    for (auto& [first, faces] : pieces) result.push_back(std::move(faces));
-    return result;
-}
-
 class CavityPoints {
 public:
     explicit CavityPoints(const SurfaceMesh& surface) : surface_(surface) {
-        for (std::vector<std::uint32_t>& piece : find_closed_pieces(surface)) {
+        for (std::vector<std::uint32_t>& piece : find_closed_pieces(surface.faces)) {
             if (is_inward(piece)) cavities_.push_back(std::move(piece));
         }
     }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/collision/rest_shape.h"
+#include "model/drive/cavity.h"
 #include "model/drive/handles.h"
 #include "model/drive/loads.h"
 #include "model/elasticity/neo_hookean.h"
@@ -36,6 +37,7 @@ struct ModelObject {
     std::string name;
     Range nodes, springs, faces, tets, handle_nodes;
     Range neo_hookean_tets;    ///< all of its tets, or none
+    Range cavities;            ///< in Model::cavities
     bool is_rigid = false;     ///< a body without springs and tets; its last four nodes are on no face
     double mass = 0.0;         ///< [kg]
     double rest_volume = 0.0;  ///< [m^3]
@@ -142,6 +144,7 @@ struct Model {
     std::vector<Handle> handles;           ///< and pins, object by object: an object's handles, then its pins
     std::vector<HandleNode> handle_nodes;  ///< in the same order
     Loads loads;
+    std::vector<Cavity> cavities;  ///< object by object
 
     std::vector<Collider> colliders;  ///< in the order of their kinds
     glm::vec3 gravity{0.0f};          ///< [m/s^2]

@@ -114,6 +114,9 @@ struct Step {
     std::span<const float> load_factors = {};
     /// Of attachments, in their order; empty: none acts.
     std::span<const MotorTarget> motors = {};
+    /// Of cavities (Cavity::drive_at) when it ends, shape [Model::cavities]; of solvers of implicit steps on
+    /// the CPU.
+    std::span<const double> cavity_drives = {};
 };
 
 /// A backend: owns the state, in host or device memory, and advances it. Where a function does not say so, it

@@ -89,6 +89,16 @@ Json attachments_json(const std::vector<AttachmentStatus>& attachments) {
     return list;
 }
 
+Json cavities_json(const std::vector<CavityStatus>& cavities, const RunReport& report) {
+    Json list = Json::array();
+    for (const CavityStatus& cavity : cavities)
+        list.push_back({{"name", cavity.name},
+                        {"object", report.objects[cavity.object]},
+                        {"volume", cavity.volume},
+                        {"pressure", cavity.pressure}});
+    return list;
+}
+
 Json frame_json(const FrameStatistics& frame, const RunReport& report) {
     const std::vector<std::string>& objects = report.objects;
     Json volume_ratio = Json::object();
@@ -111,6 +121,7 @@ Json frame_json(const FrameStatistics& frame, const RunReport& report) {
     if (!frame.holding_forces.empty())
         json["holding_forces"] = holding_forces_json(frame.holding_forces, report);
     if (!frame.attachments.empty()) json["attachments"] = attachments_json(frame.attachments);
+    if (!frame.cavities.empty()) json["cavities"] = cavities_json(frame.cavities, report);
     return json;
 }
 

@@ -67,8 +67,8 @@ BackendSolver Simulation::make_solver(const Scene& of, const std::shared_ptr<con
     if (!choose_gl(options, context))
         return timed(std::shared_ptr(
             cpu::make_solver<float>(from, settings.solver, settings.forces, of.collision, implicit)));
-    // Attachments are rows of the host's steps alone, and rigid bodies move in these alone.
-    if (attachments.empty() && !from->has_rigid_bodies() &&
+    // Attachments, gas and rigid bodies are in the host's steps alone.
+    if (attachments.empty() && from->cavities.empty() && !from->has_rigid_bodies() &&
         (!has_contacts(*from, of.collision) || makes_contacts_on_device()))
         return timed(std::shared_ptr(
             gpu::make_solver(from, settings.solver, settings.forces, of.collision, implicit)));
@@ -83,7 +83,8 @@ void Simulation::step() {
     const HeldMotions held = move_held_nodes();
     const std::vector<float> factors = load_factors(model->loads, clock.time(), size);
     const std::vector<MotorTarget> targets = find_motors();
-    solver->advance({size, held.handles, held.animated, factors, targets});
+    const std::vector<double> cavity_drives = find_cavity_drives();
+    solver->advance({size, held.handles, held.animated, factors, targets, cavity_drives});
     clock.count_step();
     ++revision;
     look_for_standstills();
@@ -147,6 +148,7 @@ void Simulation::reset() {
     handle_clocks.restart();
     arms.restart();
     motors.clear();
+    cavity_gas.clear();
     attachments.resize(attachments_at_start);
     scene.attachments.resize(attachments_at_start);
     for (Attachment& attachment : attachments) attachment.is_broken = false;

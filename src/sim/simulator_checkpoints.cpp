@@ -52,6 +52,7 @@ void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional
     d.drags.go_on_with(checkpoint.drags, checkpoint.drag_targets);
     d.handle_clocks.go_on_with(checkpoint.delays);
     d.arms = std::move(arms);
+    d.set_cavity_drives(checkpoint.cavity_drives);
     d.take_state(checkpoint.state, d.moment_of(checkpoint));
 }
 

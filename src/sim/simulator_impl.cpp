@@ -57,8 +57,9 @@ const StateCopies& Simulator::Impl::copied_state() const {
 
 Checkpoint Simulator::Impl::checkpoint() const {
     const Moment now = clock.now();
-    return {now.frame,     now.time,        solver->read_state(),
-            drags.drags(), drags.targets(), handle_clocks.delays()};
+    return {now.frame,          now.time,        solver->read_state(),
+            drags.drags(),      drags.targets(), handle_clocks.delays(),
+            set_cavity_drives()};
 }
 
 Moment Simulator::Impl::moment_of(const Checkpoint& checkpoint) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -39,6 +40,7 @@ struct PendingStatistics {
     std::vector<ContactForce> contact_forces;
     std::vector<HoldingForce> holding_forces;
     std::vector<AttachmentStatus> attachments;
+    std::vector<CavityStatus> cavities;
 };
 
 /// All that a Simulator owns, whether it simulates (Simulation) or plays a recording (Playback).
@@ -57,7 +59,8 @@ struct Simulator::Impl {
     HandleClocks handle_clocks;
     HandleArms arms;
     std::optional<Watch> watch;
-    std::uint64_t revision = 0;  // of the state
+    std::uint64_t revision = 0;                   // of the state
+    std::map<std::size_t, CavityGas> cavity_gas;  // that programs have set, by cavity
     mutable StateCopies copies;
     std::deque<PendingStatistics> pending;
     std::uint32_t reported_losses = 0;
@@ -74,6 +77,8 @@ struct Simulator::Impl {
     virtual int steps_a_frame() const = 0;
     /// For what changes a run. @throws InvalidInput if a recording is played
     virtual Simulation& simulation() = 0;
+    /// Of recordings none.
+    virtual std::vector<CavityStatus> cavity_states() const = 0;
     /// Those that are drawn.
     virtual std::span<const Attachment> shown_attachments() = 0;
     /// Null: it simulates.
@@ -96,6 +101,8 @@ struct Simulator::Impl {
     HandlePose pose_of(std::size_t handle) const;
     const StateCopies& copied_state() const;
     Checkpoint checkpoint() const;
+    /// As Checkpoint::cavity_drives.
+    std::vector<double> set_cavity_drives() const;
     Moment moment_of(const Checkpoint& checkpoint) const;
     void warn_of_losses(const Measurement& measured);
     std::vector<AttachmentStatus> attachment_states() const;

@@ -43,6 +43,7 @@ void Simulator::begin_statistics() {
     if (d.has_contact_forces()) pending.contact_forces = gelatin::contact_forces(d.scene, *d.model, found);
     pending.holding_forces = holding_forces(*d.model, *d.solver);
     pending.attachments = d.attachment_states();
+    pending.cavities = d.cavity_states();
 }
 
 std::size_t Simulator::pending_statistics() const {
@@ -65,6 +66,7 @@ FrameStatistics Simulator::take_statistics() {
     frame.contact_forces = std::move(begun.contact_forces);
     frame.holding_forces = std::move(begun.holding_forces);
     frame.attachments = std::move(begun.attachments);
+    frame.cavities = std::move(begun.cavities);
     if (const auto& found = measured.proximities)
         frame.proximities = {found->node_face, found->edge_edge, found->lost, found->nearest};
     for (std::size_t o = 0; o < measured.objects.size(); ++o) {

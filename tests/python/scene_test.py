@@ -62,6 +62,9 @@ def scene_with_everything():
         up="z",
         line=6,
         pins_line=7,
+        cavities=[
+            gelatin.Cavity(1.0, "constant", 2.0, ball, 3.0, [gelatin.CavityKeyframe(1.0, 2.0, 3.0)], "air", line=8),
+        ],
     )
     for shape in (
         gelatin.Sphere(2.0, 3),

@@ -25,6 +25,45 @@ Real largest_stretch(const Mat3<Real>& f) {
     return std::sqrt(most);
 }
 
+// Sum of w . K w over the rotations w about three axes, of 1 rad each [J]. @param product shape [nodes]
+template <class Real>
+double resistance_to_rotations(ElasticSystem<Real>& system, const ModelObject& body,
+                               std::span<const Vec4<Real>> positions, std::span<Vec3<Real>> product) {
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3<Real> w(0);
+        w[axis] = Real(1);
+        const auto each = [&](const auto& visit) {
+            for (std::uint32_t n = body.nodes.first; n < body.nodes.end(); ++n) visit(n);
+        };
+        each([&](std::uint32_t n) {
+            const Vec3<Real> arm(positions[n] - positions[body.nodes.first]);
+            system.displacements[n] = Vec4<Real>(glm::cross(w, arm), 0);
+        });
+        system.begin_product(body);
+        system.multiply(body.nodes, product);
+        each([&](std::uint32_t n) {
+            sum += static_cast<double>(glm::dot(Vec3<Real>(system.displacements[n]), product[n]));
+            system.displacements[n] = Vec4<Real>(0);
+        });
+    }
+    return sum;
+}
+
+// Once all else is linearised.
+template <class Real>
+void balance_cavities(ElasticSystem<Real>& system, CavityElements<Real>& cavities, const Model& model,
+                      std::span<const Vec4<Real>> positions) {
+    if (model.cavities.empty()) return;
+    std::vector<Vec3<Real>> product(model.node_count());
+    for_each_index(0, model.body_count(), 1, [&](std::size_t o) {
+        const ModelObject& body = model.objects[o];
+        if (body.cavities.count > 0)
+            cavities.balance_rotations(body,
+                                       resistance_to_rotations(system, body, positions, std::span(product)));
+    });
+}
+
 }  // namespace
 
 template <class Real>
@@ -37,7 +76,8 @@ ElasticSystem<Real>::ElasticSystem(std::shared_ptr<const Model> model)
       neo_hookean_(model_->neo_hookean_tets.size()),
       corner_forces_(4 * neo_hookean_.size()),
       forces_(model_->node_count()),
-      diagonal_(model_->node_count()) {
+      diagonal_(model_->node_count()),
+      cavities_(model_) {
     std::copy(model_->incidence.starts.begin(), model_->incidence.starts.end(), spring_starts_.begin());
     for (std::size_t e = 0; e < half_springs_.size(); ++e) {
         const std::uint32_t entry = model_->incidence.entries[e];
@@ -54,7 +94,8 @@ ElasticSystem<Real>::ElasticSystem(std::shared_ptr<const Model> model)
 
 template <class Real>
 void ElasticSystem<Real>::linearise(std::span<const Vec4<Real>> positions,
-                                    std::span<const Vec4<Real>> velocities, Real inverse_step) {
+                                    std::span<const Vec4<Real>> velocities, Real inverse_step,
+                                    std::span<const double> drives) {
     linearise_springs(positions, velocities, inverse_step);
     linearise_volumes(positions);
     linearise_neo_hookean(positions, velocities, inverse_step);
@@ -65,6 +106,9 @@ void ElasticSystem<Real>::linearise(std::span<const Vec4<Real>> positions,
             diagonal_[n].add_outer(slope_weights_[entry / 4], slopes_[entry]);
         }
     });
+    cavities_.linearise(positions, drives);
+    cavities_.add(forces_, diagonal_);
+    balance_cavities(*this, cavities_, *model_, positions);
     if (neo_hookean_.empty()) return;
     const NodeTets& corners = model_->neo_hookean_corners;
     for_each_index(model_->node_count(), [&](std::size_t n) {
@@ -196,6 +240,7 @@ void ElasticSystem<Real>::linearise_neo_hookean(std::span<const Vec4<Real>> posi
 
 template <class Real>
 void ElasticSystem<Real>::begin_product(const ModelObject& body) {
+    cavities_.begin_product(body, displacements);
     const Model& model = *model_;
     const auto at = [&](std::uint32_t n) { return Vec3<Real>(displacements[n]); };
     for_each_index(body.tets, [&](std::uint32_t t) {
@@ -246,6 +291,7 @@ void ElasticSystem<Real>::multiply(const Range& nodes, std::span<Vec3<Real>> pro
         }
         product[n] = sum;
     }
+    cavities_.multiply(nodes, displacements, product);
 }
 
 template class ElasticSystem<double>;
@@ -257,7 +303,8 @@ ElasticSystem<float>::ElasticSystem(std::shared_ptr<const Model> model)
       left_out_nodes_(arrays_.groups.size()),
       left_out_tets_(arrays_.tets.size()),
       forces_(model_->node_count()),
-      diagonal_(model_->node_count()) {}
+      diagonal_(model_->node_count()),
+      cavities_(model_) {}
 
 void ElasticSystem<float>::leave_out(std::span<const std::uint8_t> asleep) {
     const std::vector<std::uint32_t> object_of = objects_of_nodes(*model_);
@@ -273,7 +320,8 @@ void ElasticSystem<float>::leave_out(std::span<const std::uint8_t> asleep) {
 }
 
 void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
-                                     std::span<const Vec4<float>> velocities, float inverse_step) {
+                                     std::span<const Vec4<float>> velocities, float inverse_step,
+                                     std::span<const double> drives) {
     arrays_.is_damped =
         std::any_of(velocities.begin(), velocities.end(), [](const auto& v) { return v.w > 0.0f; });
     const ElasticStart start{positions.data(), velocities.data(), inverse_step};
@@ -298,6 +346,9 @@ void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
     for_each_group(arrays_.groups.size(), [&](std::size_t g) {
         if (left_out_nodes_[g] == 0) linearise_nodes(start, g, arrays_, forces_.data(), diagonal_.data());
     });
+    cavities_.linearise(positions, drives);
+    cavities_.add(forces_, diagonal_);
+    balance_cavities(*this, cavities_, *model_, positions);
 }
 
 // The volume term's stress, as above.
@@ -314,6 +365,7 @@ void ElasticSystem<float>::find_points(std::span<const Vec4<float>> positions) {
 
 void ElasticSystem<float>::multiply(const Range& nodes, std::span<Vec3<float>> product) const {
     multiply_nodes(nodes, arrays_, displacements.data(), product.data());
+    cavities_.multiply(nodes, displacements, product);
 }
 
 }  // namespace gelatin::cpu

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cpu/elasticity/elements.h"
+#include "cpu/implicit/cavity_elements.h"
 #include "cpu/implicit/elastic_arrays.h"
 #include "cpu/nodes.h"
 #include "model/elasticity/node_tets.h"
@@ -13,18 +14,19 @@
 
 namespace gelatin::cpu {
 
-/// The elements of a step, linearised where it begins: springs, tets and the volume term, with their dampers.
-/// For a displacement d of the nodes, forces are f - K d, with K symmetric and positive semi-definite.
-/// All sums are gathered by node, in a fixed order.
+/// The elements of a step, linearised where it begins: springs, tets and the volume term, with their dampers,
+/// and the gas of cavities.
+/// For a displacement d of the nodes, forces are f - K d, with K symmetric and, but for pressures, positive
+/// semi-definite. All sums are gathered by node, in a fixed order.
 template <class Real>
 class ElasticSystem {
 public:
     explicit ElasticSystem(std::shared_ptr<const Model> model);
 
     /// @param positions, velocities shape [nodes]; of the velocities only the damping times are read
-    /// @param inverse_step [1/s]
+    /// @param inverse_step [1/s] @param drives of cavities, shape [Model::cavities]
     void linearise(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> velocities,
-                   Real inverse_step);
+                   Real inverse_step, std::span<const double> drives = {});
 
     /// @param asleep bodies whose nodes are all held: what is found of them may stay as it was
     void leave_out(std::span<const std::uint8_t> /*asleep*/) {}
@@ -75,6 +77,7 @@ private:
     std::vector<Vec3<Real>> corner_forces_;  // 4 t + c, of neo-Hookean tets
     std::vector<Vec3<Real>> forces_;
     std::vector<SymmetricMatrix<Real>> diagonal_;
+    CavityElements<Real> cavities_;
 };
 
 /// The same with SIMD, and with what tets add to K as matrices, one for each edge: a step multiplies often.
@@ -84,12 +87,12 @@ public:
     explicit ElasticSystem(std::shared_ptr<const Model> model);
 
     void linearise(std::span<const Vec4<float>> positions, std::span<const Vec4<float>> velocities,
-                   float inverse_step);
+                   float inverse_step, std::span<const double> drives = {});
     void leave_out(std::span<const std::uint8_t> asleep);
     const std::vector<Vec3<float>>& forces() const { return forces_; }
     const std::vector<SymmetricMatrix<float>>& diagonal() const { return diagonal_; }
     std::vector<Vec4<float>> displacements;
-    void begin_product(const ModelObject& /*body*/) {}
+    void begin_product(const ModelObject& body) { cavities_.begin_product(body, displacements); }
     void multiply(const Range& nodes, std::span<Vec3<float>> product) const;
 
 private:
@@ -100,6 +103,7 @@ private:
     std::vector<std::uint8_t> left_out_nodes_, left_out_tets_;  // groups
     std::vector<Vec3<float>> forces_;
     std::vector<SymmetricMatrix<float>> diagonal_;
+    CavityElements<float> cavities_;
 };
 
 }  // namespace gelatin::cpu

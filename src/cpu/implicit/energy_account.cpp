@@ -36,7 +36,11 @@ void EnergyAccount<Real>::archive(Archive& archive) {
 }
 
 template <class Real>
-void EnergyAccount<Real>::begin(const Nodes<Real>& previous) {
+void EnergyAccount<Real>::begin(const Nodes<Real>& previous, std::span<const double> drives) {
+    if (!std::equal(drives_.begin(), drives_.end(), drives.begin(), drives.end())) {
+        drives_.assign(drives.begin(), drives.end());
+        is_known_ = false;
+    }
     if (!is_known_) find_energies(previous);
     before_ = after_;
     motions_before_ = motions_;
@@ -78,11 +82,17 @@ void EnergyAccount<Real>::find_energy(std::size_t body, const Nodes<Real>& nodes
         motion += 0.5 * mass * glm::dot(v, v);
         potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
     }
+    double gas = 0.0;
+    for (std::uint32_t c = object.cavities.first; c < object.cavities.end(); ++c) {
+        const Cavity& cavity = model_->cavities[c];
+        gas += cavity.energy(drives_[c], enclosed_volume<Vec4<Real>>(cavity.faces, nodes.positions));
+    }
     motions_[body] = motion;
     momenta_[body] = momentum;
     potentials_[body] = potential;
-    after_[body] = motion + potential;
-    rounding_[body] = tuning::kLeastEnergy + tuning::kEnergyRounding * (motion + std::abs(potential));
+    after_[body] = motion + potential + gas;
+    rounding_[body] =
+        tuning::kLeastEnergy + tuning::kEnergyRounding * (motion + std::abs(potential) + std::abs(gas));
 }
 
 // Each of two bodies has half.

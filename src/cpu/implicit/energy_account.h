@@ -35,7 +35,8 @@ public:
         const Nodes<Real>&previous, &current;
     };
 
-    void begin(const Nodes<Real>& previous);
+    /// @param drives of cavities until the next one: what they change the energy of gas by is no gain
+    void begin(const Nodes<Real>& previous, std::span<const double> drives = {});
     /// Measures a step.
     /// @return what an island has gained beyond what drives it and what it vibrates with, as a part of its
     /// energy then; of all islands the most; 0 where none has, infinity where energies are not finite
@@ -67,10 +68,12 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> object_of_;  // by node
+    std::vector<double> drives_;            // of cavities
     bool is_known_ = false;
     std::vector<double> potentials_, potentials_before_;  // of bodies [J]
     std::vector<glm::dvec3> momenta_;                     // of bodies [kg m/s]
-    // Of bodies [J]: kinetic, elastic and potential; kinetic and elastic; and what is too small to count.
+    // Of bodies [J]: kinetic, elastic and potential, and of gas; kinetic and elastic; and what is too small
+    // to count.
     std::vector<double> before_, after_, motions_, motions_before_, rounding_;
     // Of bodies' shares in contacts [J].
     std::vector<double> contacts_before_, contacts_at_start_, contacts_at_end_;

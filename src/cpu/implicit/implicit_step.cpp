@@ -37,6 +37,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       expected_(model_->node_count()),
       ends_(model_->node_count()) {
     system_.iterations = iterations;
+    set_cavity_drives({});
 }
 
 template <class Real>
@@ -54,6 +55,18 @@ void ImplicitStep<Real>::set_attachments(const std::vector<Attachment>& attachme
             joins(*model_, attachment.object, attachment.other))
             joined.insert(std::minmax(attachment.object, attachment.other));
     pairs_.set_joined(std::move(joined));
+}
+
+template <class Real>
+std::vector<std::uint32_t> ImplicitStep<Real>::set_cavity_drives(std::span<const double> drives) {
+    std::vector<std::uint32_t> changed;
+    cavity_drives_.resize(model_->cavities.size());
+    for (std::size_t c = 0; c < cavity_drives_.size(); ++c) {
+        const Cavity& cavity = model_->cavities[c];
+        const double drive = drives.empty() ? cavity.drive_at(0.0, {}) : drives[c];
+        if (std::exchange(cavity_drives_[c], drive) != drive) changed.push_back(cavity.object);
+    }
+    return changed;
 }
 
 template <class Real>
@@ -78,6 +91,7 @@ void ImplicitStep<Real>::archive(Archive& archive) {
     rigid_bodies_.archive(archive);
     restitution_.archive(archive);
     energy_.archive(archive);
+    archive.array(cavity_drives_);
     archive.list(acting_);  // bodies asleep make no step that would find them again
 }
 
@@ -201,7 +215,7 @@ void ImplicitStep<Real>::begin(const StepInput<Real>& input, const Nodes<Real>& 
         system_.leave_out(asleep_);
     }
     find_released(previous);
-    energy_.begin(previous);
+    energy_.begin(previous, cavity_drives_);
 }
 
 // Bodies asleep that something comes near. @return whether there are any: then the step begins anew
@@ -357,7 +371,7 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     for_each_index(velocities_.size(), [&](std::size_t n) {
         velocities_[n].w = std::max(velocities_[n].w, scheme_.of(object_of_[n]).damping);
     });
-    system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step);
+    system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step, cavity_drives_);
     const double fall =
         tuning::kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
     const double rounding =
@@ -435,7 +449,7 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
     });
     detect(from, true, false);
     if (guard(from, nodes)) return false;
-    energy_.begin(from);
+    energy_.begin(from, cavity_drives_);
     energy_.follow(nodes);
     forget();
     return true;

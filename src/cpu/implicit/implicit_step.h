@@ -82,6 +82,8 @@ public:
     std::vector<std::uint32_t> moved_by(std::span<const MotorTarget> motors) const {
         return attachments_.moved_by(motors);
     }
+    /// From now on. @param drives of cavities; empty: those of the start @return bodies whose gas changes
+    std::vector<std::uint32_t> set_cavity_drives(std::span<const double> drives);
     /// Of elements, contacts and hands on held nodes in the last step.
     /// @param forces output [N], shape [nodes]; empty before it. Those of bodies asleep stay.
     void find_forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous,
@@ -146,6 +148,7 @@ private:
     std::vector<std::uint32_t> held_counts_;  // of bodies' nodes, when the last step began
     Islands islands_;
     Real step_ = 0;
+    std::vector<double> cavity_drives_;
     std::vector<Real> compliances_;              // of nodes in contacts, 1 / h_i [m/N]
     Field expected_;                             // displacements without forces [m]
     std::vector<Vec4<Real>> ends_, velocities_;  // velocities: with damping times of this step

@@ -32,7 +32,7 @@ public:
         const Pulls<Real>* pulls;                   ///< null: no hand holds anything
         std::span<const Vec3<Real>> held_at;        ///< where the last step left held nodes [m],
                                                     ///< shape [Model::handle_nodes]
-        std::span<const std::uint32_t> moved = {};  ///< bodies that motors move
+        std::span<const std::uint32_t> moved = {};  ///< bodies that motors or gas move
     };
     /// Wakes those that are driven. @return whether a step has nothing to do: all rest, and no collider moves
     bool begin(const Drive& drive);

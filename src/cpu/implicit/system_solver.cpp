@@ -40,6 +40,7 @@ void SystemSolver<Real>::apply_kinematics(const Step& step) {
 // Wakes bodies that are driven. Where all rest, they and what is held stay where they are.
 template <class Real>
 bool SystemSolver<Real>::rests(const Step& step) {
+    std::vector<std::uint32_t> moved = step_.set_cavity_drives(step.cavity_drives);
     if (!rest_watch_) return false;
     std::vector<Vec4<Real>> asked = current_.positions;
     std::vector<Vec3<Real>> held_at;
@@ -47,8 +48,9 @@ bool SystemSolver<Real>::rests(const Step& step) {
         if (asked[held.node].w == Real(0)) asked[held.node] = Vec4<Real>(goals_[held.node], Real(0));
         held_at.push_back(held_at_.empty() ? Vec3<Real>(current_.positions[held.node]) : held_at_[held.node]);
     }
-    if (!rest_watch_->begin({step.size, asked, step.load_factors, this->acting_pulls(), held_at,
-                             step_.moved_by(step.motors)}))
+    const std::vector<std::uint32_t> by_motors = step_.moved_by(step.motors);
+    moved.insert(moved.end(), by_motors.begin(), by_motors.end());
+    if (!rest_watch_->begin({step.size, asked, step.load_factors, this->acting_pulls(), held_at, moved}))
         return false;
     for (std::size_t n = 0; n < goals_.size(); ++n) {
         Vec4<Real>&position = current_.positions[n], &velocity = current_.velocities[n];
@@ -167,12 +169,14 @@ std::string SystemSolver<Real>::memory() {
     return bytes;
 }
 
-// Numbers of colliders and attachments, which are in it, mean the same only where there are as many.
+// Numbers of colliders, attachments and cavities, which are in it, mean the same only where there are as
+// many.
 template <class Real>
 void SystemSolver<Real>::archive(Archive& archive) {
-    const std::array<std::size_t, 5> kind{sizeof(Real), model_->objects.size(), model_->colliders.size(),
-                                          rest_watch_ ? 1u : 0u, step_.attachment_count()};
-    std::array<std::size_t, 5> written = kind;
+    const std::array<std::size_t, 6> kind{
+        sizeof(Real),          model_->objects.size(),   model_->colliders.size(),
+        rest_watch_ ? 1u : 0u, step_.attachment_count(), model_->cavities.size()};
+    std::array<std::size_t, 6> written = kind;
     archive.value(written);
     if (written != kind) return archive.fail();
     step_.archive(archive);

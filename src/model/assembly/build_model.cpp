@@ -19,6 +19,7 @@
 #include "mesh/surface_repair.h"
 #include "mesh/topology.h"
 #include "model/assembly/body_handles.h"
+#include "model/assembly/cavities.h"
 #include "model/assembly/draw_surface.h"
 #include "model/assembly/object_mesh.h"
 #include "model/assembly/pack_skin.h"
@@ -220,6 +221,20 @@ NodeTets make_neo_hookean_corners(const Model& model) {
     return nodes.empty() ? NodeTets() : make_node_tets(model.node_count(), nodes);
 }
 
+// Of the object that comes next.
+Range append_cavities(const std::vector<Cavity>& cavities, std::span<const std::uint32_t> new_index,
+                      std::uint32_t first_node, Model& model) {
+    const Range range{static_cast<std::uint32_t>(model.cavities.size()),
+                      static_cast<std::uint32_t>(cavities.size())};
+    for (Cavity cavity : cavities) {
+        cavity.object = static_cast<std::uint32_t>(model.objects.size());
+        for (glm::uvec3& face : cavity.faces)
+            for (int k = 0; k < 3; ++k) face[k] = first_node + new_index[face[k]];
+        model.cavities.push_back(std::move(cavity));
+    }
+    return range;
+}
+
 // Null if the material names the paper's springs, or has none.
 std::shared_ptr<const FittedSprings> fitted_springs(const Body& body) {
     if (!body.has_springs() || body.material.springs) return nullptr;
@@ -249,6 +264,7 @@ std::vector<std::uint32_t> append_body(Model& model, const Body& body) {
     append_handles(body, mesh.positions, first, model);
     object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
     append_loads(body.loads, mesh, std::span(model.masses).subspan(first), first, model.loads);
+    object.cavities = append_cavities(body.cavities, order.new_index, first, model);
     if (body.has_springs()) append_springs(model, springs_of(body, order, fitted.get()), body.name, first);
     object.springs.count = size(model.springs) - object.springs.first;
     object.is_rigid = body.is_rigid();
@@ -310,6 +326,7 @@ void make_deformable(const Scene& scene, const ObjectDescription& object, Object
     if (body.has_springs() && !body.material.springs) body.fitted = mesher.fit(object);
     body.scale = object.scale;
     body.skin = mesher.skin(object);
+    body.cavities = make_cavities(scene.file, object, body.mesh);
 }
 
 // Its surface as it is, and what it weighs.

@@ -24,7 +24,8 @@ struct Body {
     std::vector<HandleDescription> handles;
     std::vector<std::shared_ptr<const BodySkeleton>> skeletons = {};  ///< of handles; empty: none has one
     std::vector<LoadDescription> loads;
-    glm::vec3 color{-1.0f};  ///< linear RGB; negative: the renderer's palette
+    std::vector<Cavity> cavities = {};  ///< with nodes of `mesh`
+    glm::vec3 color{-1.0f};             ///< linear RGB; negative: the renderer's palette
 
     /// Materials of parts, with the same kinds of springs as `material`, and the material of each tet: 0 is
     /// `material`, m is part_materials[m - 1], shape [tets]; empty: only `material`.

@@ -5,6 +5,7 @@
 
 #include "model/scene/field_path.h"
 #include "model/scene/scene_file_animation.h"
+#include "model/scene/scene_file_cavities.h"
 #include "model/scene/scene_file_copies.h"
 #include "model/scene/scene_file_drives.h"
 #include "model/scene/scene_file_region.h"
@@ -150,6 +151,7 @@ std::vector<ObjectDescription> read_object(TableReader& reader, const std::vecto
     object.pins_line = reader.line_of("pins");
     for (TableReader& pin : reader.tables("pins")) object.pins.push_back(read_region(pin));
     for (TableReader& handle : reader.tables("handle")) object.handles.push_back(read_handle(handle, folder));
+    for (TableReader& cavity : reader.tables("cavity")) object.cavities.push_back(read_cavity(cavity));
     reader.read("skin", object.skin);
     return read_copies_of(reader, object);
 }
@@ -161,7 +163,7 @@ std::vector<ObjectDescription> read_rigid(TableReader& reader, const std::vector
     reader.read("mass", rigid.mass);
     if (reader.has("inertia")) reader.read("inertia", rigid.inertia.emplace(0.0));
     reader.refuse({"pins", "handle"}, kHoldsNoNodes);
-    reader.refuse({"mesher", "part", "start", "skin"}, kHasNoTets);
+    reader.refuse({"mesher", "part", "start", "skin", "cavity"}, kHasNoTets);
     return read_copies_of(reader, object);
 }
 

@@ -107,6 +107,13 @@ Table table_of(const MotorKeyframe& keyframe) {
         .add("force", keyframe.force);
 }
 
+Table table_of(const CavityKeyframe& keyframe) {
+    return Table()
+        .add("time", keyframe.time)
+        .add("pressure", keyframe.pressure)
+        .add("amount", keyframe.amount);
+}
+
 // [{ ... }, { ... }]
 template <class Item>
 std::string list_of_tables(const std::vector<Item>& items) {
@@ -167,6 +174,19 @@ Table table_of(const LoadDescription& load) {
     if (const auto* pressure = std::get_if<PressureLoad>(&load.kind))
         table.add("pressure", pressure->pressure);
     return table.add("from", load.from).add("until", load.until);
+}
+
+Table table_of(const CavityDescription& cavity) {
+    const CavityDescription usual;
+    Table table;
+    if (!cavity.name.empty()) table.add("name", cavity.name);
+    if (cavity.region) table.add_text("region", table_of(*cavity.region).in_line());
+    if (cavity.law == GasLaw::constant) table.add("law", "constant");
+    table.add_unless(usual.pressure, "pressure", cavity.pressure)
+        .add_unless(usual.amount, "amount", cavity.amount)
+        .add_unless(usual.ambient, "ambient", cavity.ambient);
+    if (!cavity.keyframes.empty()) table.add_text("keyframes", list_of_tables(cavity.keyframes));
+    return table;
 }
 
 Table table_of(const PartDescription& part) {
@@ -329,6 +349,7 @@ std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
         for (const PartDescription& part : object.parts) add("[[object.part]]", table_of(part));
         for (const HandleDescription& handle : object.handles)
             add("[[object.handle]]", table_of(handle, folder));
+        for (const CavityDescription& cavity : object.cavities) add("[[object.cavity]]", table_of(cavity));
         for (const LoadDescription& load : object.loads) add("[[" + name + ".load]]", table_of(load));
     }
     for (const ColliderDescription& collider : scene.colliders)

@@ -9,6 +9,7 @@
 #include "mesh/mesh_in_memory.h"
 #include "model/scene/names.h"
 #include "model/scene/validate_animation.h"
+#include "model/scene/validate_cavities.h"
 #include "model/setting_names.h"
 
 namespace gelatin {
@@ -153,6 +154,7 @@ public:
             check_handle(checks_, (field / "handle")[h], object.handles[h], has_contact_);
         for (std::size_t l = 0; l < object.loads.size(); ++l)
             check_load(checks_, (field / "load")[l], object.loads[l]);
+        check_cavities(checks_, field / "cavity", object.cavities, solver_);
         checks_.check(field / "color", object.color, kFraction);
         if (object.rigid) check_rigid(field, object, *object.rigid);
     }
@@ -176,6 +178,7 @@ private:
                object.start.scale != usual.start.scale || object.start.scatter != usual.start.scatter,
                kHasNoTets);
         refuse("skin", object.skin != usual.skin, kHasNoTets);
+        refuse("cavity", !object.cavities.empty(), kHasNoTets);
     }
 
     // Ixx + Iyy - Izz is twice the integral of density * z^2, and so on.

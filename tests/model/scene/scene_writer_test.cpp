@@ -307,6 +307,28 @@ to = "ball"
     EXPECT_EQ(copy.substr(copy.find("[[attachment]]")), kAttachments);
 }
 
+TEST(SceneWriter, WritesCavities) {
+    constexpr const char* kCavities = R"([[object.cavity]]
+name = "air"
+region = { sphere = [0, 1, 0], radius = 0.25 }
+law = "constant"
+pressure = 5000
+keyframes = [{ time = 1, pressure = 100 }, { time = 2, pressure = 200 }]
+
+[[object.cavity]]
+amount = 1.5
+ambient = 90000
+keyframes = [{ time = 0, amount = 2 }]
+)";
+    const TemporaryFolder folder;
+    write_file(folder.path() / "scene.toml",
+               "[[material]]\nname = 'm'\n[[object]]\nname = 'ball'\nshape = {sphere = 1}\n" +
+                   std::string(kCavities));
+    save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
+    const std::string copy = read_file(folder.path() / "copy.toml");
+    EXPECT_EQ(copy.substr(copy.find("[[object.cavity]]")), kCavities);
+}
+
 TEST(SceneWriter, WritesJoints) {
     constexpr const char* kJoints = R"([[attachment]]
 name = "door"
