@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "model/scene/validate_animation.h"
 #include "model/scene/validate_bodies.h"
 
 namespace gelatin {
