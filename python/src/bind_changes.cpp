@@ -77,70 +77,71 @@ void bind_changes(nb::class_<PythonSimulator>& simulator) {
         .def(
             "pin",
             [](PythonSimulator& self, std::size_t object, const std::vector<std::uint32_t>& nodes) {
-        use_released(self, [&](Simulator& s) { s.pin(object, nodes); });
+                use_released(self, [&](Simulator& s) { s.pin(object, nodes); });
             },
             nb::arg("object"), nb::arg("nodes"))
         .def(
             "unpin",
             [](PythonSimulator& self, std::size_t object) {
-        use_released(self, [&](Simulator& s) { s.unpin(object); });
+                use_released(self, [&](Simulator& s) { s.unpin(object); });
             },
             nb::arg("object"))
         .def(
             "set_material",
             [](PythonSimulator& self, nb::handle source) {
-        const Material material = material_of(source);
-        use_released(self, [&](Simulator& s) { s.set_material(material); });
+                const Material material = material_of(source);
+                use_released(self, [&](Simulator& s) { s.set_material(material); });
             },
             nb::arg("material"))
         .def(
             "attach",
             [](PythonSimulator& self, nb::handle source) {
-        const AttachmentDescription attachment = attachment_of(source);
-        std::size_t place = 0;
-        use_released(self, [&](Simulator& s) { place = s.attach(attachment); });
-        return place;
+                const AttachmentDescription attachment = attachment_of(source);
+                std::size_t place = 0;
+                use_released(self, [&](Simulator& s) { place = s.attach(attachment); });
+                return place;
             },
             nb::arg("attachment"))
         .def(
             "detach",
             [](PythonSimulator& self, std::size_t attachment) {
-        self.use([&](Simulator& s) { s.detach(attachment); });
+                self.use([&](Simulator& s) { s.detach(attachment); });
             },
             nb::arg("attachment"))
         .def(
             "set_motor",
             [](PythonSimulator& self, std::size_t attachment, nb::handle source) {
-        const JointMotor motor = motor_of(source);
-        self.use([&](Simulator& s) { s.set_motor(attachment, motor); });
+                const JointMotor motor = motor_of(source);
+                self.use([&](Simulator& s) { s.set_motor(attachment, motor); });
             },
             nb::arg("attachment"), nb::arg("motor"))
         .def(
             "set_collider_vertices",
             [](PythonSimulator& self, const std::string& collider, const Vertices& values) {
-        const auto* const first = reinterpret_cast<const glm::dvec3*>(values.data());
-        const std::vector<glm::dvec3> vertices(first, first + values.shape(0));
-        self.use([&](Simulator& s) { s.set_collider_vertices(collider, vertices); });
+                const auto* const first = reinterpret_cast<const glm::dvec3*>(values.data());
+                const std::vector<glm::dvec3> vertices(first, first + values.shape(0));
+                self.use([&](Simulator& s) { s.set_collider_vertices(collider, vertices); });
             },
             nb::arg("collider"), nb::arg("vertices"))
+        .def(
             "set_cavity",
             [](PythonSimulator& self, std::size_t cavity, std::optional<double> pressure,
                std::optional<double> amount) {
-        self.use([&](Simulator& s) { s.set_cavity(cavity, {pressure, amount}); });
+                self.use([&](Simulator& s) { s.set_cavity(cavity, {pressure, amount}); });
             },
             nb::arg("cavity"), nb::arg("pressure").none(), nb::arg("amount").none())
         .def(
             "set_pulls",
             [](PythonSimulator& self, const std::vector<PullValues>& values) {
-        std::vector<Pull> pulls;
-        for (const PullValues& pull : values) pulls.push_back(pull_of(pull));
-        self.use([&](Simulator& s) { s.set_pulls(std::move(pulls)); });
+                std::vector<Pull> pulls;
+                for (const PullValues& pull : values) pulls.push_back(pull_of(pull));
+                self.use([&](Simulator& s) { s.set_pulls(std::move(pulls)); });
             },
             nb::arg("pulls"))
         .def(
             "move_pull",
             [](PythonSimulator& self, std::size_t pull, const Triple& target) {
-        self.use([&](Simulator& s) { s.move_pull(pull, vector_of(target)); });
+                self.use([&](Simulator& s) { s.move_pull(pull, vector_of(target)); });
             },
             nb::arg("pull"), nb::arg("target"));
 }

@@ -18,9 +18,9 @@ struct Checkpoint {
     State state;
     std::vector<Drag> drags = {}, drag_targets = {};  ///< shape [handles], or none
     std::vector<double> delays = {};                  ///< of handles [s], shape [handles], or none
-    std::string programmed = {};                      ///< HandleArms::archive; empty: nothing
     /// What programs have given cavities (Cavity::drive_at), NaN: nothing; shape [Model::cavities], or none.
     std::vector<double> cavity_drives = {};
+    std::string programmed = {};  ///< HandleArms::archive; empty: nothing
 };
 
 /// A model's tets and faces, as a number: what a state belongs to.
