@@ -16,7 +16,7 @@ Made from the docstrings of `python/gelatin/`. [Python](python.md) is the guide 
 """
 GROUPS = {  # of the Python page: names of gelatin.__all__, the rest comes last
     "Scenes": "Scene load SimulationSettings CollisionSettings Material MaterialPair SpringKinds Camera",
-    "Objects and colliders": "Object Rigid Mesher Part TetAttribute Start Handle Keyframe Drag Load Force Traction Pressure Collider Attachment Attached AttachedPoint AttachedLine AttachedRail AttachedUniversal AttachedDistance JointSpring JointMotor MotorKeyframe",
+    "Objects and colliders": "Object Rigid Mesher Part TetAttribute Start Handle Skeleton Keyframe Drag Load Force Traction Pressure Cavity CavityKeyframe Collider Animation AnimationClip AnimationFiles AnimationFrames AnimationByProgram Attachment Attached AttachedPoint AttachedLine AttachedRail AttachedUniversal AttachedDistance JointSpring JointMotor MotorKeyframe",
     "Shapes and regions": "Shape Sphere Box Capsule Text File Mesh Plane Region BoxRegion SphereRegion HalfSpaceRegion",
     "Running": "Simulator Body Hand Batch Recorder",
     "Many runs": "sweep Between Run",
