@@ -184,7 +184,7 @@ def test_files_do_the_same(tmp_path, pushed):
     sim.advance(PUSHED)
     np.testing.assert_allclose(sim.positions, pushed, atol=1e-4)
     (tmp_path / "piston_7.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    with pytest.raises(gelatin.InvalidInput, match="piston_7.obj: must be 8, as in the first file"):
+    with pytest.raises(gelatin.InvalidInput, match="piston_7.obj: vertices = 3: must be 8, as in the first file"):
         simulate(ball_beside(gelatin.Animation(files), gelatin.File(tmp_path / "piston_0.obj")))
 
 
@@ -306,7 +306,7 @@ def test_wrong_animations_are_named(tmp_path):
     invalid = gelatin.InvalidInput
     for change, error, message in (
         (lambda a: setattr(a, "source", gelatin.AnimationClip("wave")), invalid, 'animation.clip = "wave": needs a shape from a .gltf or .glb file'),
-        (lambda a: setattr(a, "source", gelatin.AnimationFiles(tmp_path / "a_*.obj")), invalid, "animation.files: needs a shape from a file"),
+        (lambda a: setattr(a, "source", gelatin.AnimationFiles(tmp_path / "a_*.obj")), invalid, "needs a shape from a file"),
         (lambda a: setattr(a, "source", gelatin.AnimationFrames(np.zeros((0, 8, 3)))), invalid, "animation.frames: must be one or more"),
         (lambda a: setattr(a, "source", gelatin.AnimationFrames(places_of_piston()[:, 1:])), invalid, "its animation has 7"),
         (lambda a: setattr(a, "source", gelatin.AnimationFrames(places_of_piston() * np.nan)), invalid, "animation.frames[0] = nan: must be finite"),
