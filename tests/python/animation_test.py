@@ -304,12 +304,14 @@ def test_frames_of_a_wrong_shape_are_named(frames, error, message):
 def test_wrong_animations_are_named(tmp_path):
     by_frames, by_program = gelatin.AnimationFrames(places_of_piston()), gelatin.AnimationByProgram()
     invalid = gelatin.InvalidInput
+    lost = places_of_piston()
+    lost[3, 2] = (1, np.nan, 1)
     for change, error, message in (
         (lambda a: setattr(a, "source", gelatin.AnimationClip("wave")), invalid, 'animation.clip = "wave": needs a shape from a .gltf or .glb file'),
         (lambda a: setattr(a, "source", gelatin.AnimationFiles(tmp_path / "a_*.obj")), invalid, "needs a shape from a file"),
         (lambda a: setattr(a, "source", gelatin.AnimationFrames(np.zeros((0, 8, 3)))), invalid, "animation.frames: must be one or more"),
         (lambda a: setattr(a, "source", gelatin.AnimationFrames(places_of_piston()[:, 1:])), invalid, "its animation has 7"),
-        (lambda a: setattr(a, "source", gelatin.AnimationFrames(places_of_piston() * np.nan)), invalid, "animation.frames[0] = nan: must be finite"),
+        (lambda a: setattr(a, "source", gelatin.AnimationFrames(lost)), invalid, "animation.frames[3] = [1, nan, 1]: vertex 2 must be finite"),
         (lambda a: setattr(a.source, "rate", 0), invalid, "animation.rate = 0: must be greater than 0"),
         (lambda a: setattr(a, "start", -1), invalid, "animation.start = -1: must be 0 or more"),
         (lambda a: setattr(a, "speed", 0), invalid, "animation.speed = 0: must be greater than 0"),
