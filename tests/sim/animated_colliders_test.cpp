@@ -162,5 +162,19 @@ TEST_F(AnimatedColliders, ErrorsOfFilesNameTheCollider) {
     }
 }
 
+TEST_F(AnimatedColliders, ErrorsOfSkeletonsNameTheHandle) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "scene.toml",
+               "[[material]]\nname = 'm'\n[[object]]\nname = 'b'\nshape = {sphere = 1}\n[[object.handle]]\n"
+               "skeleton = {file = 'gone.glb', radius = 1}\n");
+    try {
+        Simulator simulator(load_scene(folder.path() / "scene.toml"), on_cpu());
+        ADD_FAILURE() << "was not refused";
+    } catch (const InvalidInput& error) {
+        EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("scene.toml:6: object.b.handle[0].skeleton = "),
+                                                 HasSubstr("gone.glb: no such file")));
+    }
+}
+
 }  // namespace
 }  // namespace gelatin

@@ -357,6 +357,19 @@ void make_rigid(const Scene& scene, const ObjectDescription& object, ObjectMeshe
     body.skin = std::make_shared<const ShapeSkin>(std::move(skin));
 }
 
+// Null: the handle has none.
+std::shared_ptr<const BodySkeleton> skeleton_of(const Scene& scene, const ObjectDescription& object,
+                                                std::size_t handle) {
+    const HandleDescription& description = object.handles[handle];
+    if (!description.skeleton) return nullptr;
+    try {
+        return std::make_shared<const BodySkeleton>(*description.skeleton, object, scene.up);
+    } catch (const InvalidInput& error) {
+        throw said_of(scene.file, description.line,
+                      fmt::format("object.{}.handle[{}].skeleton", object.name, handle), error);
+    }
+}
+
 Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
     Body body;
     body.name = object.name;
@@ -371,11 +384,9 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
     body.pins = object.pins;
     body.handles = object.handles;
     std::vector<std::vector<std::uint32_t>> held;
-    for (const HandleDescription& handle : object.handles) {
-        body.skeletons.push_back(
-            handle.skeleton ? std::make_shared<const BodySkeleton>(*handle.skeleton, object, scene.up)
-                            : nullptr);
-        held.push_back(nodes_of(handle, body.skeletons.back().get(), body.mesh.positions));
+    for (std::size_t h = 0; h < object.handles.size(); ++h) {
+        body.skeletons.push_back(skeleton_of(scene, object, h));
+        held.push_back(nodes_of(object.handles[h], body.skeletons[h].get(), body.mesh.positions));
     }
     body.loads = object.loads;
     if (object.color) body.color = glm::vec3(*object.color);

@@ -43,8 +43,13 @@ std::vector<std::uint32_t> arrange(SurfaceMesh& mesh) {
 }
 
 // Gives a surface the vertices that its animation has at the start. @pre it is as its shape has it
-void animate(const AnimationDescription& description, const Shape& shape, ColliderSurface& surface) {
-    surface.animation = make_animation(description, shape, surface.mesh);
+void animate(const Scene& scene, const AnimationDescription& description, const Shape& shape,
+             ColliderSurface& surface) {
+    try {
+        surface.animation = make_animation(description, shape, surface.mesh);
+    } catch (const InvalidInput& error) {
+        throw said_of(scene.file, 0, surface.name + ".animation", error);
+    }
     if (surface.animation->motion)
         surface.mesh.positions = surface.animation->arms(surface.animation->motion->at(0.0));
 }
@@ -57,19 +62,6 @@ void place(const ColliderDescription& collider, const glm::dquat& rotation,
     animation.sources = std::move(sources);
     animation.map = collider.scale * glm::mat3_cast(rotation);
     animation.offset = collider.position;
-}
-
-// Calls `make`, and says of which collider what it complains of is.
-template <class Make>
-void with_name(const Scene& scene, const std::string& name, const Make& make) {
-    try {
-        make();
-    } catch (const InvalidInput& error) {
-        InputProblem problem = error.problem();
-        const std::string file = std::exchange(problem.file, {});
-        throw InvalidInput(
-            {scene.file.string(), 0, fmt::format("{}.animation", name), file, InvalidInput(problem).what()});
-    }
 }
 
 // Whether a body starts within it: sees the backs of its faces in more than half of all directions, as in a
@@ -150,8 +142,7 @@ std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene, ObjectMe
         surface.mesh = mesher.surface(*shape, surface.name);
         if (surface.mesh.faces.empty())
             throw InvalidInput({scene.file.string(), 0, surface.name + ".shape", {}, "has no faces"});
-        if (collider.animation)
-            with_name(scene, surface.name, [&] { animate(*collider.animation, *shape, surface); });
+        if (collider.animation) animate(scene, *collider.animation, *shape, surface);
         const glm::dquat rotation = orientation_of(collider, scene.up);
         for (glm::dvec3& p : surface.mesh.positions) p = rotation * (collider.scale * p) + collider.position;
         const std::vector<std::uint32_t> earlier = arrange(surface.mesh);

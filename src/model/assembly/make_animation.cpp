@@ -13,7 +13,6 @@
 #include <tuple>
 #include <utility>
 
-#include "gelatin/error.h"
 #include "mesh/surface_file.h"
 #include "mesh/surface_readers.h"
 #include "mesh/tet_file.h"
@@ -149,6 +148,12 @@ HandleAnimation make_animation(const AnimationDescription& description, const Sh
         throw InvalidInput({name_of(shape), 0, "vertices", fmt::format("{}", vertices.size()),
                             fmt::format("its animation has {}", motion.count())});
     return animation;
+}
+
+InvalidInput said_of(const fs::path& scene, int line, const std::string& field, const InvalidInput& error) {
+    InputProblem problem = error.problem();
+    const std::string file = std::exchange(problem.file, {});
+    return InvalidInput({scene.string(), line, field, file, InvalidInput(problem).what()});
 }
 
 BodySkeleton::BodySkeleton(const SkeletonDescription& skeleton, const ObjectDescription& object,

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
+#include "gelatin/error.h"
 #include "gelatin/scene.h"
 #include "mesh/surface_mesh.h"
 #include "model/drive/handle_animation.h"
@@ -16,6 +19,10 @@ namespace gelatin {
 /// @throws InvalidInput for files that cannot be read, or do not have the shape's vertices
 HandleAnimation make_animation(const AnimationDescription& description, const Shape& shape,
                                const SurfaceMesh& surface);
+
+/// An error in a file, said of the field of a scene that names the file.
+InvalidInput said_of(const std::filesystem::path& scene, int line, const std::string& field,
+                     const InvalidInput& error);
 
 /// The bones of a skeleton where an object is placed.
 class BodySkeleton {
