@@ -119,6 +119,25 @@ TEST(Animation, AProgramMovesVerticesAsFramesDo) {
     EXPECT_GT(program.center(0).y, 0.2);
 }
 
+// The watch on diverging runs does not know how much energy they may give.
+TEST(Animation, WhatMovesVerticesMayGiveAnyEnergy) {
+    Scene scene = scene_of(1e4, 0.0);
+    scene.objects = {object_of(BoxShape{{0.3, 0.1, 0.3}}, {0.0, 0.052, 0.0})};
+    scene.colliders = {floor_that_rises([](double t) { return 20.0 * t * t; })};
+    MeasuredRun frames(scene);
+    frames.advance(2.0);
+    EXPECT_GT(frames.velocity(0).y, 60.0);
+    const auto all = std::get<AnimationFrames>(scene.colliders[0].animation->source).frames;
+    scene.colliders[0].animation->source = AnimationByProgram();
+    MeasuredRun program(scene);
+    for (std::size_t f = 1; f < all->size(); ++f) {
+        program.simulator().set_collider_vertices("floor", (*all)[f]);
+        program.simulator().advance_frame();
+    }
+    EXPECT_GT(program.velocity(0).y, 60.0);
+    EXPECT_GT(program.statistics().kinetic_energy, 5e3);
+}
+
 class AnimatedFiles : public testing::Test {
 protected:
     AnimatedFiles() { bending_bar().write(file("bar.glb")); }
