@@ -162,6 +162,26 @@ TEST_F(AnimatedColliders, ErrorsOfFilesNameTheCollider) {
     }
 }
 
+// The viewer's way from one scene to the next: a skeleton that is new holds nodes where its bones are then.
+TEST_F(AnimatedColliders, SkeletonsThatAreNewBeginWhereTheirBonesAre) {
+    const TemporaryFolder folder;
+    test::bending_bar().write(folder.path() / "bar.glb");
+    scene.colliders.clear();
+    scene.objects[0].shape = BoxShape{{0.3, 2.4, 0.3}, {2, 12, 2}};
+    Simulator without(scene, on_cpu());
+    for (int f = 0; f < 30; ++f) without.advance_frame();
+    HandleDescription handle;
+    handle.skeleton = SkeletonDescription{folder.path() / "bar.glb", 0.1};
+    scene.objects[0].handles = {handle};
+    Simulator with(scene, on_cpu()), alone(scene, on_cpu());
+    with.go_on_from(without);
+    for (int f = 0; f < 30; ++f) with.advance_frame();
+    for (int f = 0; f < 60; ++f) alone.advance_frame();
+    ASSERT_FALSE(model_of(with).handle_nodes.empty());
+    for (const HandleNode& held : model_of(with).handle_nodes)
+        EXPECT_LT(glm::distance(with.positions()[held.node], alone.positions()[held.node]), 1e-4f);
+}
+
 TEST_F(AnimatedColliders, ErrorsOfSkeletonsNameTheHandle) {
     const TemporaryFolder folder;
     write_file(folder.path() / "scene.toml",

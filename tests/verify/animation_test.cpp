@@ -127,6 +127,7 @@ TEST(Animation, WhatMovesVerticesMayGiveAnyEnergy) {
     MeasuredRun frames(scene);
     frames.advance(2.0);
     EXPECT_GT(frames.velocity(0).y, 60.0);
+    EXPECT_GT(frames.statistics().kinetic_energy, 5e3);
     const auto all = std::get<AnimationFrames>(scene.colliders[0].animation->source).frames;
     scene.colliders[0].animation->source = AnimationByProgram();
     MeasuredRun program(scene);
