@@ -1,7 +1,6 @@
 #include "mesh/vertex_motion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>

@@ -163,6 +163,15 @@ protected:
         return collider;
     }
 
+    // A box of flesh around the middle of the bar.
+    void glue_to_bar(const glm::dvec3& size, int nodes, Scene& scene) const {
+        scene.objects = {object_of(BoxShape{size}, {0.0, 1.0, 0.0}, nodes)};
+        scene.colliders = {bar()};
+        AttachmentDescription& glue = scene.attachments.emplace_back();
+        glue.object = "body";
+        glue.to = "bar";
+    }
+
     TemporaryFolder folder_;
 };
 
@@ -207,12 +216,7 @@ TEST_F(AnimatedFiles, NodesNearBonesAreWhereTheseHaveThem) {
 // The bar is placed so that its bones are within the body.
 TEST_F(AnimatedFiles, FleshHangsOnBonesThatItIsGluedTo) {
     Scene scene = scene_of(1e5);
-    scene.objects = {object_of(BoxShape{{0.5, 2.2, 0.5}}, {0.0, 1.0, 0.0}, 1500)};
-    scene.colliders = {bar()};
-    AttachmentDescription glue;
-    glue.object = "body";
-    glue.to = "bar";
-    scene.attachments = {glue};
+    glue_to_bar({0.5, 2.2, 0.5}, 1500, scene);
     MeasuredRun run(scene);
     run.advance(4.0);
     const double weight = run.mass(0) * kGravity;
@@ -233,12 +237,7 @@ TEST_F(AnimatedFiles, FleshHangsOnBonesThatItIsGluedTo) {
 // with all that bones can.
 TEST_F(AnimatedFiles, FleshThatIsCrushedOnItsBonesGainsNothing) {
     Scene scene = scene_of(2e4, 0.0);
-    scene.objects = {object_of(BoxShape{{0.8, 1.9, 0.8}}, {0.0, 1.0, 0.0}, 1000)};
-    scene.colliders = {bar()};
-    AttachmentDescription glue;
-    glue.object = "body";
-    glue.to = "bar";
-    scene.attachments = {glue};
+    glue_to_bar({0.8, 1.9, 0.8}, 1000, scene);
     MeasuredRun run(scene);
     double most = 0.0;
     for (int f = 0; f < 2 * kFrameRate; ++f) {
