@@ -14,7 +14,8 @@
 namespace gelatin::cpu {
 namespace {
 
-constexpr std::size_t kLeavesATask = 16;
+// Of subtrees that are searched at once.
+constexpr std::uint32_t kMostNodes = 32;
 
 template <class Real>
 AxisBox<Real> swept(AxisBox<Real> box, const Vec3<Real>& motion) {
@@ -41,8 +42,7 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
       has_changed_(model_->objects.size()),
       bounding_boxes_(model_->objects.size()),
       motions_(model_->objects.size()),
-      object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
-      found_((model_->face_trees.levels[0].size() + kLeavesATask - 1) / kLeavesATask) {
+      object_tree_(static_cast<std::uint32_t>(model_->objects.size())) {
     boxes_.nodes.resize(model_->node_count());
     boxes_.edges.resize(model_->surface_parts.edges.size());
     boxes_.edge_columns = BoxColumns<Real>(boxes_.edges.size());
@@ -53,9 +53,18 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (const std::uint32_t n : corners_of(model_->faces[f]))
             faces[f].add(Vec3<Real>(glm::vec3(model_->positions[n])));
-    for (std::size_t o = 0; o < model_->objects.size(); ++o)
-        if (model_->objects[o].faces.count > 0)
-            update_tree_boxes<Real>(model_->face_trees, model_->face_trees.roots[o], faces, rest_boxes_);
+    const BoxTree& trees = model_->face_trees;
+    for (std::uint32_t o = 0; o < model_->objects.size(); ++o) {
+        if (model_->objects[o].faces.count == 0) continue;
+        const std::uint32_t root = trees.roots[o], end = trees.nodes[root].skip;
+        update_tree_boxes<Real>(trees, root, faces, rest_boxes_);
+        for (std::uint32_t n = root; n < end;) {
+            const bool is_small = trees.nodes[n].skip - n <= kMostNodes;
+            if (is_small) subtrees_.push_back({o, n});
+            n = is_small ? trees.nodes[n].skip : n + 1;
+        }
+    }
+    found_.resize(subtrees_.size());
 }
 
 // Two boxes meet that are nearer than both slacks and the reach. They are those of an object that stays where
@@ -104,11 +113,10 @@ bool FindPairs<Real>::has_changed_node(const Face& face) const {
     return is_changed_[face.a] != 0 || is_changed_[face.b] != 0 || is_changed_[face.c] != 0;
 }
 
+// Whether a node of an object's tree has a face that has.
 template <class Real>
-bool FindPairs<Real>::has_changed_face(const TreeNode& leaf) const {
-    const auto first = is_changed_face_.begin() + leaf.first_item;
-    return std::any_of(first, first + leaf.item_count,
-                       [](std::uint8_t is_changed) { return is_changed != 0; });
+bool FindPairs<Real>::has_changed(std::uint32_t object, std::uint32_t node) const {
+    return has_changed_[object] != 0 && boxes_.changed[node].min.x <= boxes_.changed[node].max.x;
 }
 
 template <class Real>
@@ -204,7 +212,7 @@ void FindPairs<Real>::run(const Paths<Real>& paths) {
 }
 
 template <class Real>
-void FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes) {
+std::size_t FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes) {
     for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 1;
     for_each_index(0, has_changed_.size(), 1, [&](std::size_t o) {
         if (has_changed_[o] == 0) return;
@@ -214,21 +222,20 @@ void FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint
     });
     object_tree_.update(bounding_boxes_);
     std::erase_if(pairs_, [&](const NearPair<Real>& near) { return has_changed_node(near.pair); });
+    const std::size_t others = pairs_.size();
     search_all(paths, true);
     for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 0;
     for (Own& own : owns_) own.listed = own.boxes.size();
+    return others;
 }
 
 // @param changed whether pairs of nodes that have changed are wanted alone
 template <class Real>
 void FindPairs<Real>::search_all(const Paths<Real>& paths, bool changed) {
-    const std::vector<std::uint32_t>& leaves = model_->face_trees.levels[0];
-    tbb::parallel_for(std::size_t(0), found_.size(), [&](std::size_t task) {
-        Found& found = found_[task];
-        found.of_nodes.clear();
-        found.of_edges.clear();
-        const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
-        for (std::size_t k = task * kLeavesATask; k < end; ++k) search(leaves[k], paths, changed, found);
+    tbb::parallel_for(std::size_t(0), found_.size(), [&](std::size_t s) {
+        found_[s].of_nodes.clear();
+        found_[s].of_edges.clear();
+        search(subtrees_[s], paths, changed, found_[s]);
     });
     for (const Found& found : found_)
         pairs_.insert(pairs_.end(), found.of_nodes.begin(), found.of_nodes.end());
@@ -236,41 +243,48 @@ void FindPairs<Real>::search_all(const Paths<Real>& paths, bool changed) {
         pairs_.insert(pairs_.end(), found.of_edges.begin(), found.of_edges.end());
 }
 
-// What a tree has near a leaf; of a body itself, where the lines between them meet lost tets. Edges of two
-// leaves meet in one of both searches.
-// @param changed whether only what has changed is wanted
+// use(node) for what an object has near a subtree: leaves, and nodes that are no larger than it; of a body
+// itself, where the lines between them meet lost tets.
+// @param starts nodes below which to look @param changed whether only what has changed is wanted
 template <class Real>
-void FindPairs<Real>::walk(std::uint32_t leaf, std::uint32_t object, const AxisBox<Real>& box, bool changed,
-                           Found& found) const {
-    const BoxTree& trees = model_->face_trees;
-    const std::vector<glm::uvec2>& starts = model_->surface_parts.face_starts;
-    const std::uint32_t own_first = trees.nodes[leaf].first_item,
-                        own_object = model_->faces[own_first].object;
-    const bool is_own = object == own_object;
-    const std::uint32_t lost_count = is_own ? owns_[object].boxes.size() : 0,
-                        listed_count = is_own ? owns_[object].listed : 0;
-    const bool is_convex = is_own && kept_.is_convex(object);
-    const std::vector<AxisBox<Real>>& tree_boxes =
-        changed && lost_count == listed_count ? boxes_.changed : boxes_.trees;
-    const std::uint32_t root = trees.roots[object], end = trees.nodes[root].skip;
-    for (std::uint32_t n = root; n < end;) {
-        const TreeNode& node = trees.nodes[n];
-        if (!meet(box, tree_boxes[n]) || (is_convex && is_kept(owns_[object], lost_count, leaf, n))) {
-            n = node.skip;
-            continue;
+template <class Use>
+void FindPairs<Real>::walk(const Subtree& from, std::uint32_t object, std::span<const Range> starts,
+                           bool changed, const Use& use) const {
+    const std::vector<TreeNode>& nodes = model_->face_trees.nodes;
+    const AxisBox<Real> box = swept(boxes_.trees[from.root], motions_[from.object] - motions_[object]);
+    const Own& own = owns_[object];
+    const bool is_convex = object == from.object && kept_.is_convex(object),
+               has_new = object == from.object && own.boxes.size() > own.listed;
+    const std::vector<AxisBox<Real>>& boxes = changed && !has_new ? boxes_.changed : boxes_.trees;
+    const std::uint32_t size = nodes[from.root].skip - from.root;
+    for (const Range& start : starts) {
+        for (std::uint32_t n = start.first; n < start.end();) {
+            const bool is_near =
+                meet(box, boxes[n]) && !(is_convex && is_kept(own, own.boxes.size(), from.root, n));
+            const bool is_small = nodes[n].item_count > 0 || nodes[n].skip - n <= size;
+            if (is_near && is_small) use(n);
+            n = is_near && !is_small ? n + 1 : nodes[n].skip;
         }
-        const std::uint32_t other = n++;
-        if (node.item_count == 0) continue;
-        const bool is_new = lost_count > listed_count && is_kept(owns_[object], listed_count, leaf, other);
-        const std::uint32_t first = node.first_item, last = first + node.item_count;
-        const auto add = [](std::vector<Range>& ranges, std::uint32_t from, std::uint32_t to) {
-            if (ranges.empty() || ranges.back().end() != from) ranges.push_back({from, 0});
-            ranges.back().count += to - from;
-        };
-        add(found.faces[is_new ? 1 : 0], first, last);
-        if (is_own ? first >= own_first : object > own_object)
-            add(found.edges[is_new ? 1 : 0], starts[first].y, starts[last].y);
     }
+}
+
+// Edges of two leaves meet in one of both searches.
+template <class Real>
+void FindPairs<Real>::add_leaf(const Subtree& from, std::uint32_t object, std::uint32_t leaf,
+                               Found& found) const {
+    const std::vector<glm::uvec2>& starts = model_->surface_parts.face_starts;
+    const TreeNode &node = model_->face_trees.nodes[leaf], &own_node = model_->face_trees.nodes[from.root];
+    const Own& own = owns_[object];
+    const bool is_own = object == from.object;
+    const bool is_new = is_own && own.boxes.size() > own.listed && is_kept(own, own.listed, from.root, leaf);
+    const std::uint32_t first = node.first_item, last = first + node.item_count;
+    const auto add = [](std::vector<Range>& ranges, std::uint32_t begin, std::uint32_t end) {
+        if (ranges.empty() || ranges.back().end() != begin) ranges.push_back({begin, 0});
+        ranges.back().count += end - begin;
+    };
+    add(found.faces[is_new ? 1 : 0], first, last);
+    if (is_own ? first >= own_node.first_item : object > from.object)
+        add(found.edges[is_new ? 1 : 0], starts[first].y, starts[last].y);
 }
 
 // Whether the lines between what two nodes of a tree have meet none of the first `count` boxes round lost
@@ -297,73 +311,105 @@ void FindPairs<Real>::for_meeting(const BoxColumns<Real>& columns,
 }
 
 template <class Real>
-void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool changed, Found& found) const {
+void FindPairs<Real>::search(const Subtree& subtree, const Paths<Real>& paths, bool changed,
+                             Found& found) const {
+    const std::vector<TreeNode>& nodes = model_->face_trees.nodes;
+    const auto [object, root] = subtree;
+    const auto has_new = [&](std::uint32_t other) {
+        return has_changed_[other] != 0 ||
+               (other == object && owns_[object].boxes.size() > owns_[object].listed);
+    };
+    // Where nothing of a node has changed, only what has is of interest.
+    const auto others_alone = [&](std::uint32_t node) { return changed && !has_changed(object, node); };
+    found.objects.clear();
+    object_tree_.for_objects_near(swept(boxes_.trees[root], motions_[object]), [&](std::uint32_t other) {
+        if ((others_alone(root) && !has_new(other)) || (is_still_[object] != 0 && is_still_[other] != 0))
+            return;
+        if (may_meet(object, other)) found.objects.push_back(other);
+    });
+    std::sort(found.objects.begin(), found.objects.end());
+    found.starts.clear();
+    found.start_counts.clear();
+    for (const std::uint32_t other : found.objects) {
+        const std::uint32_t first = model_->face_trees.roots[other];
+        const std::size_t before = found.starts.size();
+        walk(subtree, other, std::array{Range{first, nodes[first].skip - first}}, others_alone(root),
+             [&](std::uint32_t n) {
+                 found.starts.push_back({n, nodes[n].skip - n});
+             });
+        found.start_counts.push_back(static_cast<std::uint32_t>(found.starts.size() - before));
+    }
+    if (found.starts.empty()) return;
+    found.maybe_nodes.clear();
+    found.maybe_edges.clear();
+    for (std::uint32_t leaf = root; leaf < nodes[root].skip; ++leaf) {
+        if (nodes[leaf].item_count == 0) continue;
+        std::span<const Range> starts = found.starts;
+        for (std::size_t k = 0; k < found.objects.size(); ++k) {
+            const std::span<const Range> of_object = starts.first(found.start_counts[k]);
+            starts = starts.subspan(of_object.size());
+            if (!of_object.empty() && !(others_alone(leaf) && !has_new(found.objects[k])))
+                search({object, leaf}, found.objects[k], of_object, changed, found);
+        }
+    }
+    keep_near(paths, found.maybe_nodes, found.of_nodes);
+    keep_near(paths, found.maybe_edges, found.of_edges);
+}
+
+template <class Real>
+void FindPairs<Real>::search(const Subtree& leaf, std::uint32_t other, std::span<const Range> starts,
+                             bool changed, Found& found) const {
     const SurfaceParts& parts = model_->surface_parts;
-    const TreeNode& faces = model_->face_trees.nodes[leaf];
+    const TreeNode& faces = model_->face_trees.nodes[leaf.root];
     const glm::uvec2 first = parts.face_starts[faces.first_item],
                      end = parts.face_starts[faces.first_item + faces.item_count];
     if (first == end) return;
-    const std::uint32_t object = model_->faces[faces.first_item].object;
-    // Where nothing of the leaf has changed, only what has is of interest.
-    const bool others_alone = changed && !(has_changed_[object] != 0 && has_changed_face(faces));
-    std::vector<std::uint32_t>& others = found.objects;
-    others.clear();
-    object_tree_.for_objects_near(swept(boxes_.trees[leaf], motions_[object]), [&](std::uint32_t other) {
-        const bool has_new = has_changed_[other] != 0 ||
-                             (other == object && owns_[object].boxes.size() > owns_[object].listed);
-        if ((others_alone && !has_new) || (is_still_[object] != 0 && is_still_[other] != 0)) return;
-        if (may_meet(object, other)) others.push_back(other);
-    });
-    std::sort(others.begin(), others.end());
-    for (const std::uint32_t other : others) {
-        const Vec3<Real> motion = motions_[object] - motions_[other];  // beside the other
-        for (std::vector<Range>& ranges : found.faces) ranges.clear();
-        for (std::vector<Range>& ranges : found.edges) ranges.clear();
-        walk(leaf, other, swept(boxes_.trees[leaf], motion), others_alone, found);
-        const auto reach = static_cast<float>(surface_->reach(object, other));
-        const auto add = [&](const ContactPair& pair, bool is_new) {
-            if (!changed || is_new || has_changed_node(pair)) found.candidates.push_back(pair);
-        };
-        found.candidates.clear();
-        found.boxes.clear();
-        for (std::uint32_t place = first.x; place < end.x; ++place)
-            found.boxes.push_back(swept(boxes_.nodes[parts.nodes[place]], motion));
-        for_meeting(
-            boxes_.face_columns, found.faces,
-            [&](std::uint32_t k, std::uint32_t f, bool is_new) {
-                const std::uint32_t n = parts.nodes[first.x + k];
-                const Face& face = model_->faces[f];
-                if (!has_corner(face, n))
-                    add({{n, face.a, face.b, face.c}, n, f, object, other, 1, reach}, is_new);
-            },
-            found);
-        keep_near(paths, found, found.of_nodes);
-        if (other < object) continue;
-        found.candidates.clear();
-        found.boxes.clear();
-        for (std::uint32_t e = first.y; e < end.y; ++e) found.boxes.push_back(swept(boxes_.edges[e], motion));
-        for_meeting(
-            boxes_.edge_columns, found.edges,
-            [&](std::uint32_t k, std::uint32_t to, bool is_new) {
-                const std::uint32_t e = first.y + k;
-                const FaceEdge &edge = parts.edges[e], &near = parts.edges[to];
-                // Of a body itself, only later ones.
-                if (other != object || (to > e && !share_end(edge, near)))
-                    add({{edge.a, edge.b, near.a, near.b}, e, to, object, other, 2, reach}, is_new);
-            },
-            found);
-        keep_near(paths, found, found.of_edges);
-    }
+    const std::uint32_t object = leaf.object;
+    const Vec3<Real> motion = motions_[object] - motions_[other];  // beside the other
+    for (std::vector<Range>& ranges : found.faces) ranges.clear();
+    for (std::vector<Range>& ranges : found.edges) ranges.clear();
+    walk(leaf, other, starts, changed && !has_changed(object, leaf.root),
+         [&](std::uint32_t n) { add_leaf(leaf, other, n, found); });
+    const auto reach = static_cast<float>(surface_->reach(object, other));
+    const auto add = [&](const ContactPair& pair, bool is_new) {
+        if (!changed || is_new || has_changed_node(pair))
+            (pair.is_edges() ? found.maybe_edges : found.maybe_nodes).push_back(pair);
+    };
+    found.boxes.clear();
+    for (std::uint32_t place = first.x; place < end.x; ++place)
+        found.boxes.push_back(swept(boxes_.nodes[parts.nodes[place]], motion));
+    for_meeting(
+        boxes_.face_columns, found.faces,
+        [&](std::uint32_t k, std::uint32_t f, bool is_new) {
+            const std::uint32_t n = parts.nodes[first.x + k];
+            const Face& face = model_->faces[f];
+            if (!has_corner(face, n))
+                add({{n, face.a, face.b, face.c}, n, f, object, other, 1, reach}, is_new);
+        },
+        found);
+    if (other < object) return;
+    found.boxes.clear();
+    for (std::uint32_t e = first.y; e < end.y; ++e) found.boxes.push_back(swept(boxes_.edges[e], motion));
+    for_meeting(
+        boxes_.edge_columns, found.edges,
+        [&](std::uint32_t k, std::uint32_t to, bool is_new) {
+            const std::uint32_t e = first.y + k;
+            const FaceEdge &edge = parts.edges[e], &near = parts.edges[to];
+            // Of a body itself, only later ones.
+            if (other != object || (to > e && !share_end(edge, near)))
+                add({{edge.a, edge.b, near.a, near.b}, e, to, object, other, 2, reach}, is_new);
+        },
+        found);
 }
 
 // Where a direction separates the two sides at both ends, it does so all the way, as nodes go straight. Here
 // with room for both slacks and the reach.
 template <class Real>
-void FindPairs<Real>::keep_near(const Paths<Real>& paths, const Found& found,
+void FindPairs<Real>::keep_near(const Paths<Real>& paths, std::span<const ContactPair> candidates,
                                 std::vector<NearPair<Real>>& kept) const {
     for_measured<Real>(
-        found.candidates, paths.from, [&](std::size_t p, const MeasuredPairs<Real>& measured, std::size_t c) {
-            const ContactPair& pair = found.candidates[p];
+        candidates, paths.from, [&](std::size_t p, const MeasuredPairs<Real>& measured, std::size_t c) {
+            const ContactPair& pair = candidates[p];
             const Real wanted =
                 static_cast<Real>(pair.reach) + paths.slacks[pair.object] + paths.slacks[pair.other];
             const Real gap = measured.gaps[c];

@@ -73,8 +73,9 @@ public:
     /// node beside the mean of all; in reaches, at most.
     Real fastest_approach(const Paths<Real>& paths) const;
     void run(const Paths<Real>& paths);
-    /// Lists the pairs of these nodes anew, as their paths have changed, and those that find_lost() wants.
-    void update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes);
+    /// Lists the pairs of these nodes anew, as their paths have changed, and those that find_lost() wants,
+    /// behind all others. @return how many others there are
+    std::size_t update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes);
     /// Finds where bodies may meet themselves on the way to `ends`, though pairs were left out, as they
     /// hardly deformed there. @return whether they do somewhere: then update() has to follow
     bool find_lost(std::span<const Vec4<Real>> ends);
@@ -87,13 +88,19 @@ private:
         BoxColumns<Real> face_columns, edge_columns;
         std::vector<AxisBox<Real>> changed_faces, changed;  // of those that have changed; of trees of these
     };
+    // Of a tree of faces. What is near it is found before what is near its leaves.
+    struct Subtree {
+        std::uint32_t object, root;
+    };
     struct Found {
-        std::vector<std::uint32_t> objects;              // near the current leaf
-        std::array<std::vector<Range>, 2> faces, edges;  // of leaves near it; of new ones, between which a
-                                                         // body lost something
+        std::vector<std::uint32_t> objects;              // near the subtree
+        std::vector<Range> starts;                       // nodes near the subtree, of all these objects
+        std::vector<std::uint32_t> start_counts;         // of each
+        std::array<std::vector<Range>, 2> faces, edges;  // of leaves near the leaf; of new ones, between
+                                                         // which a body lost something
         std::vector<AxisBox<Real>> boxes;
         std::vector<BoxPair> meeting;
-        std::vector<ContactPair> candidates;
+        std::vector<ContactPair> maybe_nodes, maybe_edges;
         std::vector<NearPair<Real>> of_nodes, of_edges;
     };
     // Of a body that is convex at the start: only those of its own pairs are listed whose lines then meet
@@ -108,18 +115,23 @@ private:
     void find_own(const Paths<Real>& paths);
     void add_lost(std::uint32_t object, std::span<const LostTets> lost);
     bool has_changed_node(const Face& face) const;
-    bool has_changed_face(const TreeNode& leaf) const;
+    bool has_changed(std::uint32_t object, std::uint32_t node) const;
     bool has_changed_node(const ContactPair& pair) const;
     void search_all(const Paths<Real>& paths, bool changed);
-    void search(std::uint32_t leaf, const Paths<Real>& paths, bool changed, Found& found) const;
-    void walk(std::uint32_t leaf, std::uint32_t object, const AxisBox<Real>& box, bool changed,
-              Found& found) const;
+    void search(const Subtree& subtree, const Paths<Real>& paths, bool changed, Found& found) const;
+    void search(const Subtree& leaf, std::uint32_t other, std::span<const Range> starts, bool changed,
+                Found& found) const;
+    template <class Use>
+    void walk(const Subtree& from, std::uint32_t object, std::span<const Range> starts, bool changed,
+              const Use& use) const;
+    void add_leaf(const Subtree& from, std::uint32_t object, std::uint32_t leaf, Found& found) const;
     template <class Use>
     void for_meeting(const BoxColumns<Real>& columns, const std::array<std::vector<Range>, 2>& ranges,
                      const Use& use, Found& found) const;
     bool may_meet(std::uint32_t object, std::uint32_t other) const;
     bool is_kept(const Own& own, std::uint32_t count, std::uint32_t node, std::uint32_t other) const;
-    void keep_near(const Paths<Real>& paths, const Found& found, std::vector<NearPair<Real>>& kept) const;
+    void keep_near(const Paths<Real>& paths, std::span<const ContactPair> candidates,
+                   std::vector<NearPair<Real>>& kept) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
@@ -135,7 +147,8 @@ private:
     std::vector<AxisBox<Real>> bounding_boxes_;
     std::vector<Vec3<Real>> motions_;  // of objects on average [m]
     ObjectTree<Real> object_tree_;
-    std::vector<Found> found_;  // by task, in the order of the leaves
+    std::vector<Subtree> subtrees_;  // of all trees, in the order of their leaves
+    std::vector<Found> found_;       // by subtree
     std::vector<NearPair<Real>> pairs_;
 };
 

@@ -461,14 +461,15 @@ template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
     const Paths<Real> paths{previous.positions, ends_, slacks_};
     bool has_changed = false;
+    std::size_t checked = 0;
     for (int k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
-            guard_.run(paths, pairs_.pairs(), compliances_, current.positions);
+            guard_.run(paths, pairs_.pairs(), compliances_, current.positions, checked);
         const bool has_lost = pairs_.find_lost(current.positions);
         has_changed = has_changed || guard_.has_changed();
         if (!contacts_ || (strays.empty() && !has_lost)) return has_changed;
         for (const std::uint32_t n : strays) ends_[n] = current.positions[n];
-        pairs_.update(paths, strays);
+        checked = pairs_.update(paths, strays);
     }
     for_each_index(ends_.size(), [&](std::size_t n) {  // nothing moves
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
