@@ -39,33 +39,34 @@ double volume_energy(const VolumeTerm& term, std::uint32_t n, const Position& po
     return node.x * node.y * volume_potential(volume_ratio_round<double>(term, n, position), node.y);
 }
 
-// The same. @param ratios J of the tets of the node's body, from `first` on
+// The same. @param volumes of the tets of the node's body, from `first` on [m^3]
 template <class Real>
 double volume_energy(const Model& model, std::uint32_t n, std::uint32_t first,
-                     const std::vector<Real>& ratios) {
+                     const std::vector<Real>& volumes) {
     const glm::dvec2 node(model.volume_term.nodes[n]);
     if (!(node.x > 0.0)) return 0.0;
     double volume = 0.0;  // of the tets around it
     model.volume_term.corners.for_row(n, [&](const TetCorner& corner) {
-        if (corner.tet != packing::kNone)
-            volume += static_cast<double>(ratios[corner.tet - first]) *
-                      static_cast<double>(model.tet_rests[corner.tet].volume);
+        if (corner.tet != packing::kNone) volume += static_cast<double>(volumes[corner.tet - first]);
     });
     return node.x * node.y * volume_potential(0.25 * volume / node.x, node.y);
 }
 
-// Volume ratios of tets. @return what flat ones hold, if they are of springs [J]
+// Volumes of tets. @return what flat ones hold, if they are of springs [J]
 template <class Real>
-double find_ratios(const Model& model, const Range& tets, std::span<const Vec4<Real>> positions, Real* ratios,
-                   bool are_springs) {
+double find_volumes(const Model& model, const Range& tets, std::span<const Vec4<Real>> positions,
+                    Real* volumes, bool are_springs) {
     const auto flattest = static_cast<Real>(kFlattest);
     constexpr Real kAny = std::numeric_limits<Real>::infinity();
-    const bool any_flat = !volumes_are_within(flattest, kAny, model, tets, positions.data(), ratios);
+    const bool any_flat = !volumes_are_within(flattest, kAny, model, tets, positions.data(), volumes);
     double energy = 0.0;
-    for (std::uint32_t t = tets.first; any_flat && are_springs && t < tets.end(); ++t) {
+    for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
         const TetRest& rest = model.tet_rests[t];
-        energy += flat_tet_energy(static_cast<double>(ratios[t - tets.first]),
-                                  static_cast<double>(rest.volume) * static_cast<double>(rest.modulus));
+        Real& volume = volumes[t - tets.first];  // so far the part of that at rest
+        if (any_flat && are_springs)
+            energy += flat_tet_energy(static_cast<double>(volume),
+                                      static_cast<double>(rest.volume) * static_cast<double>(rest.modulus));
+        volume *= static_cast<Real>(rest.volume);
     }
     return energy;
 }
@@ -117,13 +118,13 @@ template <class Real>
 double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions) {
     const bool has_flat_tets = object.neo_hookean_tets.count == 0;
     const bool has_volumes = !model.volume_term.is_empty();
-    std::vector<Real> ratios(has_flat_tets || has_volumes ? object.tets.count : 0);
+    std::vector<Real> volumes(has_flat_tets || has_volumes ? object.tets.count : 0);
     double energy = 0.0;
-    if (!ratios.empty())
+    if (!volumes.empty())
         energy += sum_tasks(object.tets.count, [&](const auto& share_of) {
             const Range tets = share_of(object.tets);
-            return find_ratios(model, tets, positions, ratios.data() + (tets.first - object.tets.first),
-                               has_flat_tets);
+            return find_volumes(model, tets, positions, volumes.data() + (tets.first - object.tets.first),
+                                has_flat_tets);
         });
     const std::uint32_t elements = object.nodes.count + object.springs.count + object.neo_hookean_tets.count;
     return energy + sum_tasks(elements, [&](const auto& share_of) {
@@ -134,7 +135,7 @@ double body_energy(const Model& model, const ModelObject& object, std::span<cons
                if (has_volumes) {
                    const Range nodes = share_of(object.nodes);
                    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-                       sum += volume_energy(model, n, object.tets.first, ratios);
+                       sum += volume_energy(model, n, object.tets.first, volumes);
                }
                return sum;
            });

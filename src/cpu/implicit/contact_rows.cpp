@@ -30,8 +30,6 @@ void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weigh
         row.ease = static_cast<Real>(tuning::kLeastReach) * row.reach - row.gap;
     row.gap += row.ease;
     const Real there = row.gap_at(relative<Real>(row, start.expected));
-    if (row.object == kNoNode && std::min(row.gap, there) > row.reach + start.slacks[row.other])
-        return;  // of pairs, only those are listed that may come as near
     row.stiffness = weight * Real(4) / (first + second);
     const Real reach = row.reach;
     if (is_known) {
@@ -119,15 +117,20 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
             if (start.compliances[n] == Real(0) || attachments.is_tied_to_plane(n, c)) continue;
             const SurfaceDistance<Real> to = surface_distance(collider, Vec3<Real>(start.positions[n]));
+            // Of pairs, only those are listed that may come as near.
+            const std::uint32_t object = object_of_[n];
+            const Real reach = static_cast<Real>(surface_->thicknesses[object]);
+            const Real nearest = to.distance + std::min(Real(0), glm::dot(to.normal, start.expected[n]));
+            if (nearest > reach + start.slacks[object]) continue;
             ContactRow<Real> row;
             row.nodes[0] = n;
             row.weights[0] = Real(1);
             row.count = 1;
             row.object = kNoNode;
-            row.other = object_of_[n];
+            row.other = object;
             row.normal = to.normal;
             row.gap = to.distance;
-            row.reach = static_cast<Real>(surface_->thicknesses[row.other]);
+            row.reach = reach;
             row.friction = static_cast<Real>(collider.friction);
             row.key = std::uint64_t(1) << 62 | std::uint64_t(c) << 31 | n;
             add(start, row, Real(1), Real(0), start.compliances[n], rows);

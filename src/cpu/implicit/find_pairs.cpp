@@ -14,8 +14,16 @@
 namespace gelatin::cpu {
 namespace {
 
-// Of subtrees that are searched at once.
-constexpr std::uint32_t kMostNodes = 32;
+// Of subtrees that are searched at once, and of those that count as leaves.
+constexpr std::uint32_t kMostNodes = 32, kLeafNodes = 5;
+
+// The faces of a tree's node.
+Range faces_below(const BoxTree& trees, std::uint32_t node) {
+    const TreeNode& last = trees.nodes[trees.nodes[node].skip - 1];
+    while (trees.nodes[node].item_count == 0) ++node;
+    const std::uint32_t first = trees.nodes[node].first_item;
+    return {first, last.first_item + last.item_count - first};
+}
 
 template <class Real>
 AxisBox<Real> swept(AxisBox<Real> box, const Vec3<Real>& motion) {
@@ -37,6 +45,7 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
       owns_(model_->objects.size()),
       rest_boxes_(model_->face_trees.nodes.size()),
       is_still_(model_->objects.size()),
+      nearness_(model_->objects.size()),
       is_changed_(model_->node_count()),
       is_changed_face_(model_->faces.size()),
       has_changed_(model_->objects.size()),
@@ -74,7 +83,8 @@ void FindPairs<Real>::update_boxes(std::size_t object, const Paths<Real>& paths)
     const Vec3<Real>& frame = motions_[object];
     const SurfaceParts& parts = model_->surface_parts;
     const auto margin = BoxMargin<Real>::for_distance(
-        2.0 * (static_cast<double>(paths.slacks[object]) + surface_->thicknesses[object]));
+        2.0 * (static_cast<double>(paths.slacks[object]) +
+               static_cast<double>(paths.nearness) * surface_->thicknesses[object]));
     const Range& faces = model_->objects[object].faces;
     const glm::uvec2 first = parts.face_starts[faces.first], end = parts.face_starts[faces.end()];
     for_each_index(Range{first.x, end.x - first.x}, [&](std::uint32_t s) {
@@ -174,7 +184,9 @@ void FindPairs<Real>::begin(const Paths<Real>& paths, bool own, std::span<const 
         const bool is_still = (o < asleep.size() ? asleep[o] != 0 : !model_->is_body(o)) &&
                               std::equal(paths.to.begin() + nodes.first, paths.to.begin() + nodes.end(),
                                          paths.from.begin() + nodes.first);
-        if (std::exchange(is_still_[o], is_still ? 1 : 0) != 0 && is_still) return;  // its boxes are there
+        if (std::exchange(is_still_[o], is_still ? 1 : 0) != 0 && is_still && nearness_[o] >= paths.nearness)
+            return;  // its boxes are there
+        nearness_[o] = paths.nearness;
         glm::dvec3 sum(0.0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             sum += glm::dvec3(paths.to[n]) - glm::dvec3(paths.from[n]);
@@ -212,7 +224,7 @@ void FindPairs<Real>::run(const Paths<Real>& paths) {
 }
 
 template <class Real>
-std::size_t FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes) {
+void FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes) {
     for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 1;
     for_each_index(0, has_changed_.size(), 1, [&](std::size_t o) {
         if (has_changed_[o] == 0) return;
@@ -222,11 +234,9 @@ std::size_t FindPairs<Real>::update(const Paths<Real>& paths, std::span<const st
     });
     object_tree_.update(bounding_boxes_);
     std::erase_if(pairs_, [&](const NearPair<Real>& near) { return has_changed_node(near.pair); });
-    const std::size_t others = pairs_.size();
     search_all(paths, true);
     for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 0;
     for (Own& own : owns_) own.listed = own.boxes.size();
-    return others;
 }
 
 // @param changed whether pairs of nodes that have changed are wanted alone
@@ -256,12 +266,12 @@ void FindPairs<Real>::walk(const Subtree& from, std::uint32_t object, std::span<
     const bool is_convex = object == from.object && kept_.is_convex(object),
                has_new = object == from.object && own.boxes.size() > own.listed;
     const std::vector<AxisBox<Real>>& boxes = changed && !has_new ? boxes_.changed : boxes_.trees;
-    const std::uint32_t size = nodes[from.root].skip - from.root;
+    const std::uint32_t size = std::max(nodes[from.root].skip - from.root, kLeafNodes);
     for (const Range& start : starts) {
         for (std::uint32_t n = start.first; n < start.end();) {
             const bool is_near =
                 meet(box, boxes[n]) && !(is_convex && is_kept(own, own.boxes.size(), from.root, n));
-            const bool is_small = nodes[n].item_count > 0 || nodes[n].skip - n <= size;
+            const bool is_small = nodes[n].skip - n <= size;
             if (is_near && is_small) use(n);
             n = is_near && !is_small ? n + 1 : nodes[n].skip;
         }
@@ -273,18 +283,17 @@ template <class Real>
 void FindPairs<Real>::add_leaf(const Subtree& from, std::uint32_t object, std::uint32_t leaf,
                                Found& found) const {
     const std::vector<glm::uvec2>& starts = model_->surface_parts.face_starts;
-    const TreeNode &node = model_->face_trees.nodes[leaf], &own_node = model_->face_trees.nodes[from.root];
+    const Range faces = faces_below(model_->face_trees, leaf);
     const Own& own = owns_[object];
     const bool is_own = object == from.object;
     const bool is_new = is_own && own.boxes.size() > own.listed && is_kept(own, own.listed, from.root, leaf);
-    const std::uint32_t first = node.first_item, last = first + node.item_count;
     const auto add = [](std::vector<Range>& ranges, std::uint32_t begin, std::uint32_t end) {
         if (ranges.empty() || ranges.back().end() != begin) ranges.push_back({begin, 0});
         ranges.back().count += end - begin;
     };
-    add(found.faces[is_new ? 1 : 0], first, last);
-    if (is_own ? first >= own_node.first_item : object > from.object)
-        add(found.edges[is_new ? 1 : 0], starts[first].y, starts[last].y);
+    add(found.faces[is_new ? 1 : 0], faces.first, faces.end());
+    if (is_own ? leaf >= from.root : object > from.object)
+        add(found.edges[is_new ? 1 : 0], starts[faces.first].y, starts[faces.end()].y);
 }
 
 // Whether the lines between what two nodes of a tree have meet none of the first `count` boxes round lost
@@ -342,8 +351,10 @@ void FindPairs<Real>::search(const Subtree& subtree, const Paths<Real>& paths, b
     if (found.starts.empty()) return;
     found.maybe_nodes.clear();
     found.maybe_edges.clear();
-    for (std::uint32_t leaf = root; leaf < nodes[root].skip; ++leaf) {
-        if (nodes[leaf].item_count == 0) continue;
+    for (std::uint32_t leaf = root, next = root; leaf < nodes[root].skip; leaf = next) {
+        const bool is_leaf = nodes[leaf].skip - leaf <= kLeafNodes;
+        next = is_leaf ? nodes[leaf].skip : leaf + 1;
+        if (!is_leaf) continue;
         std::span<const Range> starts = found.starts;
         for (std::size_t k = 0; k < found.objects.size(); ++k) {
             const std::span<const Range> of_object = starts.first(found.start_counts[k]);
@@ -360,9 +371,8 @@ template <class Real>
 void FindPairs<Real>::search(const Subtree& leaf, std::uint32_t other, std::span<const Range> starts,
                              bool changed, Found& found) const {
     const SurfaceParts& parts = model_->surface_parts;
-    const TreeNode& faces = model_->face_trees.nodes[leaf.root];
-    const glm::uvec2 first = parts.face_starts[faces.first_item],
-                     end = parts.face_starts[faces.first_item + faces.item_count];
+    const Range faces = faces_below(model_->face_trees, leaf.root);
+    const glm::uvec2 first = parts.face_starts[faces.first], end = parts.face_starts[faces.end()];
     if (first == end) return;
     const std::uint32_t object = leaf.object;
     const Vec3<Real> motion = motions_[object] - motions_[other];  // beside the other
@@ -403,15 +413,16 @@ void FindPairs<Real>::search(const Subtree& leaf, std::uint32_t other, std::span
 }
 
 // Where a direction separates the two sides at both ends, it does so all the way, as nodes go straight. Here
-// with room for both slacks and the reach.
+// with room for both slacks and what is near.
 template <class Real>
 void FindPairs<Real>::keep_near(const Paths<Real>& paths, std::span<const ContactPair> candidates,
                                 std::vector<NearPair<Real>>& kept) const {
     for_measured<Real>(
         candidates, paths.from, [&](std::size_t p, const MeasuredPairs<Real>& measured, std::size_t c) {
             const ContactPair& pair = candidates[p];
-            const Real wanted =
-                static_cast<Real>(pair.reach) + paths.slacks[pair.object] + paths.slacks[pair.other];
+            const Real near =
+                std::max(paths.nearness * static_cast<Real>(pair.reach), Real(2) * measured.rounding[c]);
+            const Real wanted = near + paths.slacks[pair.object] + paths.slacks[pair.other];
             const Real gap = measured.gaps[c];
             Vec3<Real> normal(measured.apart[0][c], measured.apart[1][c], measured.apart[2][c]);
             if (gap > Real(0)) normal /= gap;

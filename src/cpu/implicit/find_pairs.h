@@ -52,6 +52,7 @@ template <class Real>
 struct Paths {
     std::span<const Vec4<Real>> from, to;  ///< xyz [m], shape [nodes]
     std::span<const Real> slacks;          ///< [m], shape [objects]
+    Real nearness = 1;                     ///< within which part of their reach pairs are wanted
 };
 
 /// Lists all pairs of surface nodes and faces, and of surface edges, that may come nearer than their reach
@@ -74,8 +75,8 @@ public:
     Real fastest_approach(const Paths<Real>& paths) const;
     void run(const Paths<Real>& paths);
     /// Lists the pairs of these nodes anew, as their paths have changed, and those that find_lost() wants,
-    /// behind all others. @return how many others there are
-    std::size_t update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes);
+    /// behind all others.
+    void update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes);
     /// Finds where bodies may meet themselves on the way to `ends`, though pairs were left out, as they
     /// hardly deformed there. @return whether they do somewhere: then update() has to follow
     bool find_lost(std::span<const Vec4<Real>> ends);
@@ -143,6 +144,7 @@ private:
     std::vector<AxisBox<Real>> rest_boxes_;  // of the faces at the start, by node of the trees
     Boxes boxes_;
     std::vector<std::uint8_t> is_still_;  // objects that rest, or colliders that stay where they are
+    std::vector<Real> nearness_;          // of the boxes of objects
     std::vector<std::uint8_t> is_changed_, is_changed_face_, has_changed_;  // nodes, faces, objects; update()
     std::vector<AxisBox<Real>> bounding_boxes_;
     std::vector<Vec3<Real>> motions_;  // of objects on average [m]

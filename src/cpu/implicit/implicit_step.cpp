@@ -455,21 +455,29 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
     return true;
 }
 
-// Where a solver wants nodes beyond the paths that pairs were found for, or the guard moves them there, pairs
-// of the new paths are found.
+// Where a solver wants nodes beside the paths that pairs were found for, those are found that may cross on
+// the ways that it wants. They are fewer: what only presses is not among them.
 template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
-    const Paths<Real> paths{previous.positions, ends_, slacks_};
-    bool has_changed = false;
-    std::size_t checked = 0;
+    Paths<Real> paths{previous.positions, ends_, slacks_};
+    const auto are_listed = [&](std::span<const std::uint32_t> strays) {
+        return !contacts_ || (strays.empty() && !pairs_.find_lost(current.positions));
+    };
+    if (!are_listed(guard_.strays(paths, current.positions))) {
+        paths.nearness = static_cast<Real>(tuning::kLeastOfReach);
+        ends_ = current.positions;
+        for (std::size_t o = 0; o < slacks_.size(); ++o)
+            slacks_[o] = static_cast<Real>(tuning::kSlackOfThickness * surface_->thicknesses[o]);
+        pairs_.begin(paths, true, asleep_);
+        pairs_.run(paths);
+    }
     for (int k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
-            guard_.run(paths, pairs_.pairs(), compliances_, current.positions, checked);
-        const bool has_lost = pairs_.find_lost(current.positions);
-        has_changed = has_changed || guard_.has_changed();
-        if (!contacts_ || (strays.empty() && !has_lost)) return has_changed;
+            guard_.run(paths, pairs_.pairs(), compliances_, current.positions);
+        if (!guard_.has_changed()) return k > 0;
+        if (are_listed(strays)) return true;
         for (const std::uint32_t n : strays) ends_[n] = current.positions[n];
-        checked = pairs_.update(paths, strays);
+        pairs_.update(paths, strays);
     }
     for_each_index(ends_.size(), [&](std::size_t n) {  // nothing moves
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
