@@ -460,10 +460,8 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
 template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
     Paths<Real> paths{previous.positions, ends_, slacks_};
-    const auto are_listed = [&](std::span<const std::uint32_t> strays) {
-        return !contacts_ || (strays.empty() && !pairs_.find_lost(current.positions));
-    };
-    if (!are_listed(guard_.strays(paths, current.positions))) {
+    const auto has_lost = [&] { return contacts_ && pairs_.find_lost(current.positions); };
+    if (contacts_ && (!guard_.strays(paths, current.positions).empty() || has_lost())) {
         paths.nearness = static_cast<Real>(tuning::kLeastOfReach);
         ends_ = current.positions;
         for (std::size_t o = 0; o < slacks_.size(); ++o)
@@ -475,7 +473,8 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
         const std::vector<std::uint32_t> strays =
             guard_.run(paths, pairs_.pairs(), compliances_, current.positions);
         if (!guard_.has_changed()) return k > 0;
-        if (are_listed(strays)) return true;
+        if (!has_lost() && (!contacts_ || strays.empty()))
+            return true;  // in this order: update() adds what is lost
         for (const std::uint32_t n : strays) ends_[n] = current.positions[n];
         pairs_.update(paths, strays);
     }
