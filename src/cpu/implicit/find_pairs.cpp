@@ -14,16 +14,8 @@
 namespace gelatin::cpu {
 namespace {
 
-// Of subtrees that are searched at once, and of those that count as leaves.
-constexpr std::uint32_t kMostNodes = 32, kLeafNodes = 5;
-
-// The faces of a tree's node.
-Range faces_below(const BoxTree& trees, std::uint32_t node) {
-    const TreeNode& last = trees.nodes[trees.nodes[node].skip - 1];
-    while (trees.nodes[node].item_count == 0) ++node;
-    const std::uint32_t first = trees.nodes[node].first_item;
-    return {first, last.first_item + last.item_count - first};
-}
+// Of subtrees that are searched at once.
+constexpr std::uint32_t kMostNodes = 32;
 
 template <class Real>
 AxisBox<Real> swept(AxisBox<Real> box, const Vec3<Real>& motion) {
@@ -266,12 +258,12 @@ void FindPairs<Real>::walk(const Subtree& from, std::uint32_t object, std::span<
     const bool is_convex = object == from.object && kept_.is_convex(object),
                has_new = object == from.object && own.boxes.size() > own.listed;
     const std::vector<AxisBox<Real>>& boxes = changed && !has_new ? boxes_.changed : boxes_.trees;
-    const std::uint32_t size = std::max(nodes[from.root].skip - from.root, kLeafNodes);
+    const std::uint32_t size = nodes[from.root].skip - from.root;
     for (const Range& start : starts) {
         for (std::uint32_t n = start.first; n < start.end();) {
             const bool is_near =
                 meet(box, boxes[n]) && !(is_convex && is_kept(own, own.boxes.size(), from.root, n));
-            const bool is_small = nodes[n].skip - n <= size;
+            const bool is_small = nodes[n].item_count > 0 || nodes[n].skip - n <= size;
             if (is_near && is_small) use(n);
             n = is_near && !is_small ? n + 1 : nodes[n].skip;
         }
@@ -283,17 +275,18 @@ template <class Real>
 void FindPairs<Real>::add_leaf(const Subtree& from, std::uint32_t object, std::uint32_t leaf,
                                Found& found) const {
     const std::vector<glm::uvec2>& starts = model_->surface_parts.face_starts;
-    const Range faces = faces_below(model_->face_trees, leaf);
+    const TreeNode& node = model_->face_trees.nodes[leaf];
     const Own& own = owns_[object];
     const bool is_own = object == from.object;
     const bool is_new = is_own && own.boxes.size() > own.listed && is_kept(own, own.listed, from.root, leaf);
+    const std::uint32_t first = node.first_item, last = first + node.item_count;
     const auto add = [](std::vector<Range>& ranges, std::uint32_t begin, std::uint32_t end) {
         if (ranges.empty() || ranges.back().end() != begin) ranges.push_back({begin, 0});
         ranges.back().count += end - begin;
     };
-    add(found.faces[is_new ? 1 : 0], faces.first, faces.end());
+    add(found.faces[is_new ? 1 : 0], first, last);
     if (is_own ? leaf >= from.root : object > from.object)
-        add(found.edges[is_new ? 1 : 0], starts[faces.first].y, starts[faces.end()].y);
+        add(found.edges[is_new ? 1 : 0], starts[first].y, starts[last].y);
 }
 
 // Whether the lines between what two nodes of a tree have meet none of the first `count` boxes round lost
@@ -351,10 +344,8 @@ void FindPairs<Real>::search(const Subtree& subtree, const Paths<Real>& paths, b
     if (found.starts.empty()) return;
     found.maybe_nodes.clear();
     found.maybe_edges.clear();
-    for (std::uint32_t leaf = root, next = root; leaf < nodes[root].skip; leaf = next) {
-        const bool is_leaf = nodes[leaf].skip - leaf <= kLeafNodes;
-        next = is_leaf ? nodes[leaf].skip : leaf + 1;
-        if (!is_leaf) continue;
+    for (std::uint32_t leaf = root; leaf < nodes[root].skip; ++leaf) {
+        if (nodes[leaf].item_count == 0) continue;
         std::span<const Range> starts = found.starts;
         for (std::size_t k = 0; k < found.objects.size(); ++k) {
             const std::span<const Range> of_object = starts.first(found.start_counts[k]);
@@ -371,8 +362,9 @@ template <class Real>
 void FindPairs<Real>::search(const Subtree& leaf, std::uint32_t other, std::span<const Range> starts,
                              bool changed, Found& found) const {
     const SurfaceParts& parts = model_->surface_parts;
-    const Range faces = faces_below(model_->face_trees, leaf.root);
-    const glm::uvec2 first = parts.face_starts[faces.first], end = parts.face_starts[faces.end()];
+    const TreeNode& faces = model_->face_trees.nodes[leaf.root];
+    const glm::uvec2 first = parts.face_starts[faces.first_item],
+                     end = parts.face_starts[faces.first_item + faces.item_count];
     if (first == end) return;
     const std::uint32_t object = leaf.object;
     const Vec3<Real> motion = motions_[object] - motions_[other];  // beside the other

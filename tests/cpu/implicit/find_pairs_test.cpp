@@ -38,8 +38,9 @@ protected:
                 glm::dvec4(n < model_->objects[2].nodes.first ? glm::dvec3(0, 0.05, 0) : glm::dvec3(0), 0.0);
     }
 
-    // Of all pairs of different bodies, those that come nearer than their reach at some of 21 times.
-    std::set<Key> near_on_the_way(const std::vector<glm::dvec4>& ends) const {
+    // Of all pairs of different bodies, those that come nearer than a part of their reach at some of 21
+    // times.
+    std::set<Key> near_on_the_way(const std::vector<glm::dvec4>& ends, double part = 1.0) const {
         cpu::FindPairs<double> all(model_, surface_, false);
         const std::vector<double> wide(model_->objects.size(), 1.0);
         const cpu::Paths<double> paths{from_, ends, wide};
@@ -54,7 +55,8 @@ protected:
             for (const cpu::NearPair<double>& pair : all.pairs()) {
                 cpu::MeasuredPairs<double> measured;
                 cpu::measure_pairs({&pair.pair, 1}, there, measured);
-                if (measured.gaps[0] < static_cast<double>(pair.pair.reach)) near.insert(key_of(pair.pair));
+                if (measured.gaps[0] < part * static_cast<double>(pair.pair.reach))
+                    near.insert(key_of(pair.pair));
             }
         }
         return near;
@@ -84,6 +86,24 @@ TEST_F(FindPairsTest, ListsAllThatComeNear) {
     const std::set<Key> near = near_on_the_way(to_);
     EXPECT_GT(near.size(), 20u);
     EXPECT_TRUE(includes(listed(pairs), near));
+}
+
+// Two that slide along each other, and one that nothing comes near if only what may cross counts.
+TEST_F(FindPairsTest, ListsAsNearAsIsAskedFor) {
+    slacks_.assign(slacks_.size(), 0.0);
+    const auto list = [&](cpu::FindPairs<double>& pairs, double nearness) {
+        const std::vector<std::uint8_t> asleep{0, 0, 1};
+        pairs.begin({from_, to_, slacks_, nearness}, true, asleep);
+        pairs.run({from_, to_, slacks_, nearness});
+        return listed(pairs);
+    };
+    cpu::FindPairs<double> pairs(model_, surface_, false), others(model_, surface_, false);
+    const std::set<Key> few = list(pairs, 0.02), all = list(others, 1.0);
+    EXPECT_LT(few.size(), all.size() / 2);
+    EXPECT_TRUE(includes(all, few));
+    EXPECT_TRUE(includes(few, near_on_the_way(to_, 0.02)));
+    EXPECT_EQ(list(pairs, 1.0), all) << "boxes of what is asleep are those of less";
+    EXPECT_TRUE(includes(list(pairs, 0.02), few));
 }
 
 // As many nodes end elsewhere as a test asks for, up to 3 cm from where they were expected.
