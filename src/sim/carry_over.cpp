@@ -156,11 +156,12 @@ std::vector<double> carried_over(const Model& from, const std::vector<double>& d
 std::map<std::size_t, HandleArms::Programmed> carried_over(
     const Model& from, const std::map<std::size_t, HandleArms::Programmed>& programmed, const Model& to) {
     std::map<std::size_t, HandleArms::Programmed> carried;
-    for (const auto& [object, moved] : programmed) {
+    for (const auto& each : programmed) {
+        const std::string& name = from.objects[each.first].name;
+        const HandleArms::Programmed& moved = each.second;
         const auto same = std::find_if(to.handles.begin(), to.handles.end(), [&](const Handle& handle) {
             return !to.is_body(handle.object) && handle.animation && !handle.animation->motion &&
-                   handle.count == moved.end.size() &&
-                   to.objects[handle.object].name == from.objects[object].name;
+                   handle.count == moved.end.size() && to.objects[handle.object].name == name;
         });
         if (same != to.handles.end()) carried[same->object] = moved;
     }
