@@ -44,7 +44,8 @@ enum class Kind {
     forces,
     objects,
     wireframe,
-    attachments
+    attachments,
+    bones
 };
 
 // "NAME", or with fields "NAME:FIELD:FIELD".
@@ -72,7 +73,8 @@ struct Request {
                              {"forces", Kind::forces},
                              {"objects", Kind::objects},
                              {"wireframe", Kind::wireframe},
-                             {"attachments", Kind::attachments}});
+                             {"attachments", Kind::attachments},
+                             {"bones", Kind::bones}});
     }
 
     double number(std::size_t field, const Limit& limit) const {
@@ -188,6 +190,10 @@ void show(const Request& request, Overlays& overlays) {
         case Kind::attachments:
             request.allow(0);
             overlays.attachments = true;
+            return;
+        case Kind::bones:
+            request.allow(0);
+            overlays.bones = true;
             return;
     }
 }

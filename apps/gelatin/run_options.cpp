@@ -46,7 +46,7 @@ void add_output_options(CLI::App& command, RunOptions& options) {
             "Show in image and film: boxes (boxes:3 with three levels of the trees below), faces that touch, "
             "springs by strain (springs:0.02 colours fully at 2%), stretch, stress or speed (stress:2e4 "
             "colours fully at 20 kPa), cut (cut:z, cut:x:0.2, cut:1:0:1), velocity, forces, pressure (of "
-            "contacts), objects, wireframe")
+            "contacts), objects, wireframe, attachments, bones")
         ->type_name("NAME")
         ->delimiter(',')
         ->expected(1)

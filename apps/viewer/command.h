@@ -28,6 +28,7 @@ enum class Command {
     toggle_wireframe,
     toggle_objects,
     toggle_attachments,
+    toggle_bones,
     toggle_start_screen,
     toggle_panels,
     save_scene,

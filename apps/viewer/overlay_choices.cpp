@@ -60,6 +60,9 @@ std::optional<Overlays> toggled(Overlays overlays, Command command, const Render
         case Command::toggle_attachments:
             overlays.attachments = !overlays.attachments;
             return overlays;
+        case Command::toggle_bones:
+            overlays.bones = !overlays.bones;
+            return overlays;
         default:
             return {};
     }

@@ -155,6 +155,13 @@ bool choose_boxes(Overlays& overlays) {
     return changed;
 }
 
+bool has_skeletons(const Scene& scene) {
+    const auto is_skeleton = [](const HandleDescription& handle) { return handle.skeleton.has_value(); };
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const ObjectDescription& object) {
+        return std::any_of(object.handles.begin(), object.handles.end(), is_skeleton);
+    });
+}
+
 }  // namespace
 
 void draw_overlay_choices(const Session& session, const PanelState& state, Requests& requests) {
@@ -170,6 +177,7 @@ void draw_overlay_choices(const Session& session, const PanelState& state, Reque
     changed |= choose_boxes(overlays);
     if (!session.scene().attachments.empty())
         changed |= ImGui::Checkbox("attachments", &overlays.attachments);
+    if (has_skeletons(session.scene())) changed |= ImGui::Checkbox("bones", &overlays.bones);
     if (changed) requests.overlays = overlays;
     bool markers = state.shows_markers;
     if (!session.held_nodes().empty() && ImGui::Checkbox("pins and handles", &markers))

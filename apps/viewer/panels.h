@@ -36,7 +36,8 @@ struct Requests {
     std::optional<Scene> edited;
     std::vector<std::size_t> detached;  ///< attachments, by their place in the scene; the same for motors
     std::vector<std::pair<std::size_t, JointMotor>> motors;
-    std::vector<std::filesystem::path> opened;  ///< a scene or meshes; empty: nothing
+    std::vector<std::pair<std::size_t, CavityGas>> gas;  ///< by their place in Session::cavities()
+    std::vector<std::filesystem::path> opened;           ///< a scene or meshes; empty: nothing
 };
 
 /// The panels are drawn with Dear ImGui and return requests. @pre between Window::begin_frame and
@@ -49,6 +50,8 @@ void draw_settings(const PanelState& state, Requests& requests);
 void draw_readings(const Session& session, const PanelState& state);
 /// @pre not of a recording
 void draw_attachments(const Session& session, const PanelState& state, Requests& requests);
+/// Without anything to edit where a recording is played.
+void draw_cavities(const Session& session, Requests& requests);
 void draw_overlay_choices(const Session& session, const PanelState& state, Requests& requests);
 
 /// Over the picture and under the panels. @param pointed the one at the pointer; null: none

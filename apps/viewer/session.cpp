@@ -41,10 +41,13 @@ Session::Session(LoadedScene loaded, Backend backend, const Session* earlier)
       pace_(step_of(simulator_)),
       held_nodes_(simulator_.held_nodes()),
       attachments_(simulator_.attachments()),
-      own_attachments_(simulator_.scene().attachments.size()) {
+      own_attachments_(simulator_.scene().attachments.size()),
+      cavities_(simulator_.cavities()) {
     if (earlier == nullptr) return;
     simulator_.go_on_from(earlier->simulator_);
     attach_as(*earlier);
+    gas_ = earlier->gas_;
+    cavities_ = simulator_.cavities();
     held_nodes_ = simulator_.held_nodes();
     pace_.set_speed(earlier->pace_.speed());
     readings_ = earlier->readings_;
@@ -105,7 +108,9 @@ void Session::take_over() {
         follow_hand();
         follow_drags();
         follow_attachments();
+        follow_cavities();
     }
+    cavities_ = simulator_.cavities();
     time_ = simulator_.time();
     frame_ = simulator_.frame();
 }
@@ -116,6 +121,8 @@ void Session::go_back() {
     detached_.clear();
     motors_.clear();
     motors_asked_.clear();
+    gas_.clear();
+    gas_asked_.clear();
     problem_.clear();
     readings_.clear();
     pace_.restart();
@@ -202,6 +209,37 @@ void Session::change_attachments() {
     if (std::optional<std::string> made = attach_tool_.follow(simulator_)) {
         news_ = std::move(*made);
         is_view_old_ = true;
+    }
+}
+
+void Session::follow_cavities() {
+    try {
+        for (const auto& [cavity, gas] : std::exchange(gas_asked_, {})) {
+            simulator_.set_cavity(cavity, gas);
+            gas_[cavity] = gas;
+        }
+    } catch (const InvalidInput& error) {
+        refusal_ = error.what();
+    }
+}
+
+CavityGas Session::cavity_gas(std::size_t cavity) const {
+    const auto asked = gas_asked_.find(cavity), set = gas_.find(cavity);
+    if (asked != gas_asked_.end()) return asked->second;
+    if (set != gas_.end()) return set->second;
+    const Cavity& of = model().cavities[cavity];
+    const double drive = of.drive_at(time_, std::nullopt);
+    return of.gas.law == GasLaw::constant ? CavityGas{.pressure = drive} : CavityGas{.amount = drive};
+}
+
+void Session::save_gas(Scene& scene) const {
+    for (const auto& [cavity, gas] : gas_) {
+        const std::size_t object = model().cavities[cavity].object;
+        CavityDescription& saved =
+            scene.objects[object].cavities[cavity - model().objects[object].cavities.first];
+        saved.pressure = gas.pressure.value_or(saved.pressure);
+        saved.amount = gas.amount.value_or(saved.amount);
+        saved.keyframes.clear();
     }
 }
 

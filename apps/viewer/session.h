@@ -80,6 +80,14 @@ public:
     void set_motor(std::size_t attachment, const JointMotor& motor) { motors_asked_[attachment] = motor; }
     /// What it does at present; empty: the joint has none.
     std::optional<JointMotor> motor(std::size_t attachment) const;
+    /// By object, as of the last completed batch.
+    const std::vector<CavityStatus>& cavities() const { return cavities_; }
+    /// The gas of a cavity, from the next batch on.
+    void set_cavity(std::size_t cavity, const CavityGas& gas) { gas_asked_[cavity] = gas; }
+    /// What it has at present.
+    CavityGas cavity_gas(std::size_t cavity) const;
+    /// Puts what was set here into a scene of the same objects, in place of keyframes.
+    void save_gas(Scene& scene) const;
     /// The scene's own attachments with their present motors, then those that were made here and are not
     /// broken, where their points are at the start.
     std::vector<AttachmentDescription> attachments_to_save() const;
@@ -119,6 +127,7 @@ private:
     void follow_hand();
     void follow_drags();
     void follow_attachments();
+    void follow_cavities();
     void change_attachments();
     void attach_as(const Session& earlier);
     void start_batch(int steps, double now);
@@ -146,6 +155,8 @@ private:
     std::size_t own_attachments_;  // of the scene; the others were made here
     std::vector<std::size_t> detached_;
     std::map<std::size_t, JointMotor> motors_, motors_asked_;  // that were set here
+    std::vector<CavityStatus> cavities_;
+    std::map<std::size_t, CavityGas> gas_, gas_asked_;  // that were set here
     std::string news_, refusal_;
     glm::vec3 held_point_{0.0f}, hand_target_{0.0f};
     double last_update_ = 0.0, last_measure_ = -1.0;  // [s]

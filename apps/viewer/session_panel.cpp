@@ -46,6 +46,7 @@ void draw_session_panel(const Session& session, const PanelState& state, Request
     if (ImGui::CollapsingHeader("Settings")) draw_settings(state, requests);
     if (session.recording() == nullptr && ImGui::CollapsingHeader("Attachments"))
         draw_attachments(session, state, requests);
+    if (!session.cavities().empty() && ImGui::CollapsingHeader("Cavities")) draw_cavities(session, requests);
     if (ImGui::CollapsingHeader("Readings")) draw_readings(session, state);
     ImGui::PopItemWidth();
     ImGui::End();

@@ -47,6 +47,8 @@ std::span<const Shortcut> shortcuts() {
                  "pressure of contacts in colours"},
         Shortcut{GLFW_KEY_A, With::shift, Command::toggle_attachments, "Shift+A",
                  "attachments: points, lines and axes"},
+        Shortcut{GLFW_KEY_B, With::nothing, Command::toggle_bones, "B",
+                 "bones of skeletons, and the nodes they carry"},
         Shortcut{GLFW_KEY_G, With::nothing, Command::toggle_start_screen, "G", "choose another scene"},
         Shortcut{GLFW_KEY_TAB, With::nothing, Command::toggle_panels, "Tab", "hide or show the panels"},
         Shortcut{GLFW_KEY_F12, With::nothing, Command::screenshot, "F12", "save the picture as PNG"},

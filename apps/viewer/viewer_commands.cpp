@@ -100,6 +100,7 @@ void ViewerApp::obey(const Requests& requests) {
     if (session_) {
         for (const std::size_t attachment : requests.detached) session_->detach(attachment);
         for (const auto& [attachment, motor] : requests.motors) session_->set_motor(attachment, motor);
+        for (const auto& [cavity, gas] : requests.gas) session_->set_cavity(cavity, gas);
     }
     if (!requests.opened.empty()) open(requests.opened);
     if (requests.edited) {
@@ -127,12 +128,13 @@ std::string ViewerApp::stem() const {
     return options_.input.files.front().stem().string();
 }
 
-// With the present camera, drags and attachments.
+// With the present camera, drags, attachments and gas.
 void ViewerApp::save_scene() {
     if (loader_.is_busy()) return notify("the scene is still being built");
     const std::filesystem::path file = free_name(stem(), ".toml");
     Scene scene = dragged_scene(panels_.edited, session_->held_nodes());
     scene.attachments = session_->attachments_to_save();
+    session_->save_gas(scene);
     const render::Camera camera = camera_.camera();
     scene.camera = CameraDescription{glm::dvec3(camera.eye), glm::dvec3(camera.target),
                                      static_cast<double>(camera.field_of_view)};

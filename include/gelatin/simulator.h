@@ -191,7 +191,8 @@ public:
 
     /// Continues from the state of another simulation, with the masses, materials and settings of this one's
     /// own scene. Bodies with the same name and tets, or the same faces if rigid, get the other one's
-    /// positions, velocities and drags; other bodies start as their scene says.
+    /// positions, velocities and drags; other bodies start as their scene says. What programs have set of
+    /// cavities and of vertices of colliders stays, where these have the same names.
     void go_on_from(const Simulator& other);
 
     /// The bodies come first in every array of objects, in the order of Scene::objects.
@@ -283,7 +284,7 @@ public:
     void set_cavity(std::size_t cavity, const CavityGas& gas);
     /// @throws InvalidInput if the object has none of this name, naming those that there are
     std::size_t cavity_index(std::string_view object, std::string_view name) const;
-    /// By object, in the order of ObjectDescription::cavities; empty for recordings.
+    /// By object, in the order of ObjectDescription::cavities.
     std::vector<CavityStatus> cavities() const;
 
     /// Called at the begin and at the end of each step, on its thread; empty: not any more. It may read and

@@ -54,10 +54,11 @@ struct Overlays {
     bool wireframe = false;  ///< the edges of the surfaces
     /// Where attachments hold bodies, and the axes of joints. Of a recording, those that cannot break.
     bool attachments = false;
+    bool bones = false;  ///< the bones of skeletons, and the nodes that they carry
 
     bool any() const {
         return box_levels || faces || full_strain || color_map || cut || arrow_time || contact_forces ||
-               objects || wireframe || attachments;
+               objects || wireframe || attachments || bones;
     }
 };
 
@@ -110,10 +111,10 @@ struct OverlayView {
     std::optional<ArrowView> contact_forces = {};  ///< each begins at a node that is pressed
     std::optional<ObjectView> objects = {};
     bool wireframe = false;
-    /// Two vec4: xyz of one end [m], 0 for a point, 1 for a line between the sides of an attachment, 2 for an
-    /// axis; xyz of the other end [m], 0; shape [attachment_line_count]
-    unsigned attachment_lines = 0;
-    std::uint32_t attachment_line_count = 0;
+    /// Two vec4: xyz of one end [m], 0 for a point of an attachment, 1 for a line between its sides, 2 for an
+    /// axis, 3 for a bone, 4 for a node that it carries; xyz of the other end [m], 0; shape [line_count]
+    unsigned lines = 0;
+    std::uint32_t line_count = 0;
 };
 
 /// Triangles with the same texture, in place of their object's colour.

@@ -364,7 +364,7 @@ class Simulator:
     def cavities(self) -> list[dict[str, Any]]:
         """For each cavity, object by object: `name`, `object`, `volume` [m^3] and `pressure` above the ambient one [Pa].
 
-        They are those of the end of the last step. A recording has no cavities.
+        They are those of the end of the last step.
         """
         return self._core.cavities()
 

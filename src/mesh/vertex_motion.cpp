@@ -183,13 +183,23 @@ std::size_t VertexMotion::count() const {
     return std::get<VertexFrames>(of).frames.front().size();
 }
 
-std::vector<glm::dvec3> VertexMotion::at(double time) const {
+VertexMotion::ClipTime VertexMotion::clip_time(double time) const {
     const double duration = duration_of(*this);
     double since = std::max(0.0, speed * (time - start));
     if (loop && duration > 0.0) since = std::fmod(since, duration);
-    if (const auto* frames = std::get_if<VertexFrames>(&of)) return vertices_at(*frames, since);
     const double begun = start > 0.0 ? std::clamp(time / start, 0.0, 1.0) : 1.0;
-    return place_vertices(std::get<SkinnedVertices>(of), since, begun * begun * (3.0 - 2.0 * begun));
+    return {since, begun * begun * (3.0 - 2.0 * begun)};
+}
+
+std::vector<glm::dvec3> VertexMotion::at(double time) const {
+    const auto [since, share] = clip_time(time);
+    if (const auto* frames = std::get_if<VertexFrames>(&of)) return vertices_at(*frames, since);
+    return place_vertices(std::get<SkinnedVertices>(of), since, share);
+}
+
+std::vector<glm::dmat4> VertexMotion::nodes_at(double time) const {
+    const auto [since, share] = clip_time(time);
+    return place_nodes(std::get<SkinnedVertices>(of), since, share);
 }
 
 double VertexMotion::end() const {

@@ -103,7 +103,16 @@ struct VertexMotion {
 
     std::size_t count() const;                      ///< of vertices
     std::vector<glm::dvec3> at(double time) const;  ///< [m]
-    double end() const;                             ///< from then on nothing moves [s]
+    /// Where nodes are. @pre of SkinnedVertices
+    std::vector<glm::dmat4> nodes_at(double time) const;
+    double end() const;  ///< from then on nothing moves [s]
+
+private:
+    struct ClipTime {
+        double since;  // it began [s]
+        double share;  // of the way to the clip, in [0, 1]
+    };
+    ClipTime clip_time(double time) const;
 };
 
 }  // namespace gelatin

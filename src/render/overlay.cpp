@@ -22,7 +22,7 @@ void Overlay::show(const RenderView& bodies, int letter_size) {
     if (shown.face_marks != 0 || shown.wireframe) made(faces_).prepare(shown);
     if (shown.shown_boxes != 0) made(boxes_);
     if (shown.arrows || shown.contact_forces) made(arrows_);
-    if (shown.attachment_lines != 0) made(attachments_);
+    if (shown.lines != 0) made(lines_);
     if (shown.objects) made(labels_).show(*shown.objects, letter_size);
     if (has_springs()) {
         made(legend_).show(strain_scale(shown.full_strain), letter_size);
@@ -34,7 +34,7 @@ void Overlay::show(const RenderView& bodies, int letter_size) {
 bool Overlay::is_empty() const {
     const OverlayView& shown = view();
     return !replaces_bodies() && shown.face_marks == 0 && shown.shown_boxes == 0 && !shown.wireframe &&
-           !shown.arrows && !shown.contact_forces && !shown.objects && shown.attachment_lines == 0;
+           !shown.arrows && !shown.contact_forces && !shown.objects && shown.lines == 0;
 }
 
 void Overlay::draw_bodies(const Frame& frame) const {
@@ -60,7 +60,7 @@ void Overlay::draw(const Frame& frame) const {
     if (shown.shown_boxes != 0) boxes_->draw(frame.view, shown);
     if (shown.arrows) arrows_->draw_velocities(frame, bodies_);
     if (shown.contact_forces) arrows_->draw_forces(frame, bodies_);
-    if (shown.attachment_lines != 0) attachments_->draw(frame, shown);
+    if (shown.lines != 0) lines_->draw(frame, shown);
     glDisable(GL_DEPTH_TEST);
     if (shown.objects) labels_->draw(frame.view, shown);
     if (has_springs() || shown.color_map) legend_->draw(frame.view);

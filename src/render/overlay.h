@@ -4,7 +4,6 @@
 
 #include "gelatin/views.h"
 #include "render/arrow_overlay.h"
-#include "render/attachment_overlay.h"
 #include "render/body_overlay.h"
 #include "render/box_overlay.h"
 #include "render/cut_overlay.h"
@@ -12,6 +11,7 @@
 #include "render/frame.h"
 #include "render/label_overlay.h"
 #include "render/legend.h"
+#include "render/line_overlay.h"
 #include "render/spring_overlay.h"
 
 namespace gelatin::render {
@@ -47,7 +47,7 @@ private:
     std::optional<FaceOverlay> faces_;
     std::optional<BoxOverlay> boxes_;
     std::optional<ArrowOverlay> arrows_;
-    std::optional<AttachmentOverlay> attachments_;
+    std::optional<LineOverlay> lines_;
     std::optional<LabelOverlay> labels_;
     std::optional<Legend> legend_;
 };

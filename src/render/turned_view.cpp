@@ -33,8 +33,7 @@ RenderView TurnedView::turn(const RenderView& view) {
     turned.vertex_normals = copy(view.vertex_normals, view.vertex_count, normals_);
     overlay.node_positions = copy(overlay.node_positions, overlay.node_count, nodes_);
     overlay.boxes = copy(overlay.boxes, std::size_t{2} * overlay.box_count, boxes_);
-    overlay.attachment_lines =
-        copy(overlay.attachment_lines, std::size_t{2} * overlay.attachment_line_count, attachment_lines_);
+    overlay.lines = copy(overlay.lines, std::size_t{2} * overlay.line_count, lines_);
     if (overlay.arrows)
         overlay.arrows->vectors = copy(overlay.arrows->vectors, overlay.node_count, velocities_);
     if (overlay.contact_forces)

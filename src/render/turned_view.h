@@ -22,7 +22,7 @@ private:
     unsigned copy(unsigned from, std::size_t count, gl::Buffer<glm::vec4>& to);
 
     gl::Program program_;
-    gl::Buffer<glm::vec4> positions_, normals_, nodes_, boxes_, velocities_, forces_, attachment_lines_;
+    gl::Buffer<glm::vec4> positions_, normals_, nodes_, boxes_, velocities_, forces_, lines_;
 };
 
 }  // namespace gelatin::render

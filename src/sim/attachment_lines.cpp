@@ -3,8 +3,7 @@
 namespace gelatin {
 namespace {
 
-constexpr float kPoint = 0.0f, kBetween = 1.0f, kAxis = 2.0f;  // as in shaders/render/attachments.vert
-constexpr double kAxisLength = 0.7;                            // either way, in Joint::lever
+constexpr double kAxisLength = 0.7;  // either way, in Joint::lever
 
 AttachedPoints points_of(const Tie& tie, const Range& own_nodes, std::span<const glm::vec4> positions) {
     AttachedPoints points{glm::dvec3(0.0), glm::dvec3(tie.at)};
@@ -20,16 +19,12 @@ AttachedPoints points_of(const Tie& tie, const Range& own_nodes, std::span<const
     return points;
 }
 
-AttachmentLine line_of(float kind, const glm::dvec3& from, const glm::dvec3& to) {
-    return {glm::vec4(from, kind), glm::vec4(to, 0.0f)};
-}
-
 void add_axes(const Joint& joint, const glm::dvec3& middle, std::span<const glm::vec4> positions,
-              std::vector<AttachmentLine>& lines) {
+              std::vector<OverlayLine>& lines) {
     if (joint.kind == Joint::Kind::none || joint.kind == Joint::Kind::distance) return;
     const auto add = [&](const glm::dvec3& direction) {
         const glm::dvec3 arm = kAxisLength * joint.lever * direction;
-        lines.push_back(line_of(kAxis, middle - arm, middle + arm));
+        lines.push_back(line_of(OverlayLine::kAxis, middle - arm, middle + arm));
     };
     add(frame_of(joint.other, positions).axes[2]);
     if (joint.kind == Joint::Kind::universal) add(frame_of(joint.own, positions).axes[0]);
@@ -54,18 +49,19 @@ std::vector<AttachedPoints> attached_points(const Attachment& attachment, const 
     return points;
 }
 
-std::vector<AttachmentLine> attachment_lines(std::span<const Attachment> attachments, const Model& model,
-                                             std::span<const glm::vec4> positions) {
-    std::vector<AttachmentLine> lines;
+std::vector<OverlayLine> attachment_lines(std::span<const Attachment> attachments, const Model& model,
+                                          std::span<const glm::vec4> positions) {
+    std::vector<OverlayLine> lines;
     for (const Attachment& attachment : attachments) {
         if (attachment.is_broken) continue;
         const std::vector<AttachedPoints> all = attached_points(attachment, model, positions);
         add_axes(attachment.joint, middle_of_own(all), positions, lines);
         for (const AttachedPoints& points : all) {
-            if (points.own != points.other) lines.push_back(line_of(kBetween, points.own, points.other));
-            lines.push_back(line_of(kPoint, points.own, points.own));
+            if (points.own != points.other)
+                lines.push_back(line_of(OverlayLine::kBetween, points.own, points.other));
+            lines.push_back(line_of(OverlayLine::kAttached, points.own, points.own));
             if (attachment.joint.kind == Joint::Kind::distance)
-                lines.push_back(line_of(kPoint, points.other, points.other));
+                lines.push_back(line_of(OverlayLine::kAttached, points.other, points.other));
         }
     }
     return lines;

@@ -6,6 +6,7 @@
 
 #include "model/drive/attachment.h"
 #include "model/model.h"
+#include "sim/overlay_line.h"
 
 namespace gelatin {
 
@@ -18,14 +19,8 @@ struct AttachedPoints {
 std::vector<AttachedPoints> attached_points(const Attachment& attachment, const Model& model,
                                             std::span<const glm::vec4> positions);
 
-/// A line of the overlay of attachments, as OverlayView::attachment_lines has it.
-struct AttachmentLine {
-    glm::vec4 from;  ///< xyz [m], what it is
-    glm::vec4 to;    ///< xyz [m], 0
-};
-
 /// Points of those that are not broken, lines between their sides, and axes of their joints.
-std::vector<AttachmentLine> attachment_lines(std::span<const Attachment> attachments, const Model& model,
-                                             std::span<const glm::vec4> positions);
+std::vector<OverlayLine> attachment_lines(std::span<const Attachment> attachments, const Model& model,
+                                          std::span<const glm::vec4> positions);
 
 }  // namespace gelatin

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "model/drive/handle_animation.h"
 #include "sim/body_pose.h"
 
 namespace gelatin {
@@ -148,6 +149,35 @@ std::vector<double> carried_over(const Model& from, const std::vector<double>& d
             earlier = find_handle(from, *same, nodes_of(to, h));
         }
         if (earlier) carried[h] = delays[*earlier];
+    }
+    return carried;
+}
+
+std::map<std::size_t, HandleArms::Programmed> carried_over(
+    const Model& from, const std::map<std::size_t, HandleArms::Programmed>& programmed, const Model& to) {
+    std::map<std::size_t, HandleArms::Programmed> carried;
+    for (const auto& each : programmed) {
+        const std::string& name = from.objects[each.first].name;
+        const HandleArms::Programmed& moved = each.second;
+        const auto same = std::find_if(to.handles.begin(), to.handles.end(), [&](const Handle& handle) {
+            return !to.is_body(handle.object) && handle.animation && !handle.animation->motion &&
+                   handle.count == moved.end.size() && to.objects[handle.object].name == name;
+        });
+        if (same != to.handles.end()) carried[same->object] = moved;
+    }
+    return carried;
+}
+
+std::map<std::size_t, CavityGas> carried_over(const Model& from, const std::map<std::size_t, CavityGas>& gas,
+                                              const Model& to) {
+    std::map<std::size_t, CavityGas> carried;
+    for (const auto& [cavity, set] : gas) {
+        const Cavity& of = from.cavities[cavity];
+        const auto same = std::find_if(to.cavities.begin(), to.cavities.end(), [&](const Cavity& other) {
+            return other.gas.name == of.gas.name && other.gas.law == of.gas.law &&
+                   to.objects[other.object].name == from.objects[of.object].name;
+        });
+        if (same != to.cavities.end()) carried[static_cast<std::size_t>(same - to.cavities.begin())] = set;
     }
     return carried;
 }

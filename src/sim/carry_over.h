@@ -1,6 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <vector>
+
 #include "model/drive/drags.h"
+#include "model/drive/handle_arms.h"
 #include "model/model.h"
 #include "model/solver.h"
 
@@ -20,5 +25,13 @@ Drags carried_over(const Model& from, const Drags& drags, const Model& to, const
 /// The delays of the handles of `to` [s]: of those that hold the same nodes as one of `from`, or move a
 /// collider of the same name, that one's.
 std::vector<double> carried_over(const Model& from, const std::vector<double>& delays, const Model& to);
+
+/// What programs want of the colliders of `to` that have the name, and as many vertices, as one of `from`.
+std::map<std::size_t, HandleArms::Programmed> carried_over(
+    const Model& from, const std::map<std::size_t, HandleArms::Programmed>& programmed, const Model& to);
+
+/// The gas of the cavities of `to` that have the name, the object and the law of one of `from`.
+std::map<std::size_t, CavityGas> carried_over(const Model& from, const std::map<std::size_t, CavityGas>& gas,
+                                              const Model& to);
 
 }  // namespace gelatin

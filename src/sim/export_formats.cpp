@@ -61,7 +61,7 @@ std::string data_array(const char* type, const std::string& attributes, std::spa
                        base64(head_bytes), base64(bytes));
 }
 
-std::string vtu_cells(const Model& model, std::span<const Face> rigid_faces) {
+std::string vtu_cells(const Model& model, std::span<const Face> bare_faces) {
     std::vector<std::int64_t> connectivity, offsets;
     std::vector<std::int32_t> objects;
     connectivity.reserve(4 * model.tets.size());
@@ -73,7 +73,7 @@ std::string vtu_cells(const Model& model, std::span<const Face> rigid_faces) {
         objects.insert(objects.end(), model.objects[o].tets.count, static_cast<std::int32_t>(o));
     }
     std::vector<std::uint8_t> types(model.tets.size(), kVtkTetra);
-    for (const Face& face : rigid_faces) {
+    for (const Face& face : bare_faces) {
         connectivity.insert(connectivity.end(), {face.a, face.b, face.c});
         offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
         objects.push_back(static_cast<std::int32_t>(face.object));
@@ -86,10 +86,11 @@ std::string vtu_cells(const Model& model, std::span<const Face> rigid_faces) {
            data_array<std::int32_t>("Int32", "Name=\"object\"", objects);
 }
 
-std::vector<Face> faces_of_rigid_bodies(const Model& model) {
+// Of rigid bodies and colliders.
+std::vector<Face> faces_without_tets(const Model& model) {
     std::vector<Face> faces;
     std::copy_if(model.faces.begin(), model.faces.end(), std::back_inserter(faces),
-                 [&](const Face& face) { return model.objects[face.object].is_rigid; });
+                 [&](const Face& face) { return model.objects[face.object].tets.count == 0; });
     return faces;
 }
 
@@ -144,9 +145,9 @@ ExportTopology make_export_topology(const Model& model) {
     ExportTopology topology;
     topology.vertices = drawn.points;
     topology.face_count = drawn.faces.size();
-    topology.node_count = model.body_node_count();
-    const std::vector<Face> rigid_faces = faces_of_rigid_bodies(model);
-    topology.cell_count = model.tets.size() + rigid_faces.size();
+    topology.node_count = model.node_count();
+    const std::vector<Face> bare_faces = faces_without_tets(model);
+    topology.cell_count = model.tets.size() + bare_faces.size();
     ObjLook look(drawn.look);
     for (std::size_t o = 0; o < model.objects.size(); ++o) {
         const SkinObject& object = drawn.objects[o];
@@ -157,7 +158,7 @@ ExportTopology make_export_topology(const Model& model) {
     topology.obj_library = look.library();
     topology.obj_images = look.images();
     topology.ply_faces = ply_faces(drawn.faces);
-    topology.vtu_cells = vtu_cells(model, rigid_faces);
+    topology.vtu_cells = vtu_cells(model, bare_faces);
     for (std::size_t n = 0; n < topology.node_count; ++n)
         for (int k = 0; k < 3; ++k) topology.start.push_back(model.positions[n][k]);
     topology.tets.emplace(model);
@@ -209,25 +210,21 @@ std::string vtp_text(const ExportTopology& topology, const HostFrame& frame) {
 }
 
 std::string vtu_text(const ExportTopology& topology, const HostFrame& frame) {
-    // Without those of colliders, which come last.
-    const auto of_nodes = [&](const std::vector<float>& vectors) {
-        return std::span<const float>(vectors).first(3 * topology.node_count);
-    };
     const auto force_array = [&](const char* name, const std::vector<float>& forces) {
         if (forces.empty()) return std::string();
         return data_array<float>("Float32", fmt::format("Name=\"{}\" NumberOfComponents=\"3\"", name),
-                                 of_nodes(forces));
+                                 forces);
     };
     std::vector<float> displacements(topology.start.size());
     for (std::size_t k = 0; k < displacements.size(); ++k)
         displacements[k] = frame.positions[k] - topology.start[k];
     TetStrains::Values tets = topology.tets->find(frame.positions);
-    tets.strains.resize(9 * topology.cell_count);  // faces of rigid bodies have none
+    tets.strains.resize(9 * topology.cell_count);  // faces have none
     tets.stresses.resize(topology.cell_count);
     return head_of_vtk("UnstructuredGrid") +
            fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", topology.node_count,
                        topology.cell_count) +
-           vtk_points(of_nodes(frame.positions), of_nodes(frame.velocities)) +
+           vtk_points(frame.positions, frame.velocities) +
            data_array<float>("Float32", "Name=\"displacement\" NumberOfComponents=\"3\"", displacements) +
            force_array("contact_force", frame.contact_forces) +
            force_array("contact_friction", frame.contact_friction) +

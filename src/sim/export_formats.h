@@ -27,7 +27,7 @@ struct ExportTopology {
     std::vector<Object> objects;
     std::vector<SkinPoint> vertices;  ///< of the skins; of the boundaries of the tets where there are none
     std::size_t face_count = 0, node_count = 0;
-    std::size_t cell_count = 0;  ///< tets, and faces of rigid bodies
+    std::size_t cell_count = 0;  ///< tets, and faces of rigid bodies and colliders
     std::string obj_library;     ///< the text of kObjLibrary; empty: no materials
     std::vector<ObjLook::Image> obj_images;
     std::string ply_faces;

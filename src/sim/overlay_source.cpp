@@ -179,15 +179,12 @@ void OverlaySource::view_arrows(float time, unsigned velocities, OverlayView& vi
                             .scale = time};
 }
 
-void OverlaySource::view_attachments(std::span<const Attachment> attachments,
-                                     std::span<const glm::vec4> positions, OverlayView& view) {
-    const std::vector<AttachmentLine> lines = attachment_lines(attachments, *model_, positions);
+void OverlaySource::view_lines(std::span<const OverlayLine> lines, OverlayView& view) {
     if (lines.empty()) return;
-    if (attachment_lines_.size() != lines.size())
-        attachment_lines_ = gl::Buffer<AttachmentLine>(lines.size());
-    attachment_lines_.upload(lines);
-    view.attachment_lines = attachment_lines_.id();
-    view.attachment_line_count = static_cast<std::uint32_t>(lines.size());
+    if (lines_.size() != lines.size()) lines_ = gl::Buffer<OverlayLine>(lines.size());
+    lines_.upload(lines);
+    view.lines = lines_.id();
+    view.line_count = static_cast<std::uint32_t>(lines.size());
 }
 
 void OverlaySource::view_contacts(const Overlays& overlays, Solver& solver, OverlayView& view) {

@@ -10,9 +10,9 @@
 #include "gelatin/views.h"
 #include "gpu/gpu_solver.h"
 #include "gpu/view/mark_faces.h"
-#include "sim/attachment_lines.h"
 #include "sim/color_source.h"
 #include "sim/contact_overlay.h"
+#include "sim/overlay_line.h"
 
 namespace gelatin {
 
@@ -26,9 +26,8 @@ public:
     /// @param bodies what is drawn, with the solver's nodes in its overlay
     OverlayView update(const Overlays& overlays, const RenderView& bodies, gpu::GpuSolver& solver);
     OverlayView update(const Overlays& overlays, const RenderView& bodies, cpu::CpuSolver<float>& solver);
-    /// Adds attachments. @param positions of all nodes [m]
-    void view_attachments(std::span<const Attachment> attachments, std::span<const glm::vec4> positions,
-                          OverlayView& view);
+    /// Adds lines.
+    void view_lines(std::span<const OverlayLine> lines, OverlayView& view);
 
 private:
     OverlayView update(const Overlays& overlays, const RenderView& bodies, unsigned boxes,
@@ -58,7 +57,7 @@ private:
     std::optional<ContactOverlay> contacts_;
     gl::Buffer<std::uint32_t> arrow_nodes_;
     gl::Buffer<glm::vec4> uploaded_velocities_;
-    gl::Buffer<AttachmentLine> attachment_lines_;
+    gl::Buffer<OverlayLine> lines_;
 };
 
 }  // namespace gelatin

@@ -22,7 +22,6 @@ struct Playback final : SimulatorInternals::Impl {
     int steps_a_frame() const override { return 1; }
     [[noreturn]] Simulation& simulation() override;
     Playback* playback() override { return this; }
-    std::vector<CavityStatus> cavity_states() const override { return {}; }
     /// As of the start, but for those that may have broken: recordings do not say so.
     std::span<const Attachment> shown_attachments() override;
 

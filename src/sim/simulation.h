@@ -37,7 +37,6 @@ struct Simulation final : SimulatorInternals::Impl {
     int steps_a_frame() const override { return clock.substeps(); }
     Simulation& simulation() override { return *this; }
     Playback* playback() override { return nullptr; }
-    std::vector<CavityStatus> cavity_states() const override;
     std::span<const Attachment> shown_attachments() override { return attachments; }
 
     State first_state() const;
@@ -52,8 +51,6 @@ struct Simulation final : SimulatorInternals::Impl {
     void require_attachment(std::size_t attachment) const;
     /// @throws InvalidInput if there is none of this number
     const Cavity& require_cavity(std::size_t cavity) const;
-    /// What a checkpoint has.
-    void set_cavity_drives(const std::vector<double>& drives);
     /// Makes the solver's tables anew, and goes on where it is.
     void rebuild(const Scene& of, std::shared_ptr<const Model> from, std::vector<AddedPin> added);
 
@@ -66,7 +63,6 @@ private:
     };
     HeldMotions move_held_nodes();
     std::vector<MotorTarget> find_motors();
-    double cavity_drive(std::size_t cavity, double time) const;
     std::vector<double> find_cavity_drives();
     std::vector<std::uint32_t> find_held_up() const;
     void look_for_standstills();

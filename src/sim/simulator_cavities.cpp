@@ -17,7 +17,7 @@ std::vector<double> Simulator::Impl::set_cavity_drives() const {
     return drives;
 }
 
-void Simulation::set_cavity_drives(const std::vector<double>& drives) {
+void Simulator::Impl::set_cavity_drives(const std::vector<double>& drives) {
     cavity_gas.clear();
     for (std::size_t c = 0; c < drives.size(); ++c) {
         if (std::isnan(drives[c])) continue;
@@ -26,7 +26,7 @@ void Simulation::set_cavity_drives(const std::vector<double>& drives) {
     }
 }
 
-double Simulation::cavity_drive(std::size_t cavity, double time) const {
+double Simulator::Impl::cavity_drive(std::size_t cavity, double time) const {
     const auto set = cavity_gas.find(cavity);
     return model->cavities[cavity].drive_at(
         time, set != cavity_gas.end() ? std::optional(set->second) : std::nullopt);
@@ -41,7 +41,7 @@ std::vector<double> Simulation::find_cavity_drives() {
     return drives;
 }
 
-std::vector<CavityStatus> Simulation::cavity_states() const {
+std::vector<CavityStatus> Simulator::Impl::cavity_states() const {
     std::vector<CavityStatus> states;
     for (std::size_t c = 0; c < model->cavities.size(); ++c) {
         const Cavity& cavity = model->cavities[c];

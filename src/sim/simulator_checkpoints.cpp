@@ -35,18 +35,13 @@ void Simulator::save_checkpoint(const std::filesystem::path& file) const {
     const auto host = impl_->keep_host_state_of_solver();
     Checkpoint checkpoint = impl_->checkpoint();
     checkpoint.state.memory = impl_->solver->memory();
-    Archive archive = Archive::that_writes(checkpoint.programmed);
-    HandleArms(impl_->arms).archive(archive);
     write_checkpoint(file, *impl_->model, checkpoint);
 }
 
 void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional<int> frame) {
     Simulation& d = impl_->simulation();
     Checkpoint checkpoint = read_moment(file, frame, *d.model);
-    HandleArms arms(d.model);
-    Archive archive = Archive::that_reads(checkpoint.programmed);
-    if (!checkpoint.programmed.empty() && !arms.archive(archive))
-        throw InvalidInput({file.string(), 0, {}, {}, "was made from a scene with other animated colliders"});
+    HandleArms arms = d.arms_of(checkpoint, file);
     const auto host = d.keep_host_state_of_solver();
     hold_as_here(*d.model, checkpoint.state.positions);
     d.drags.go_on_with(checkpoint.drags, checkpoint.drag_targets);
@@ -66,6 +61,8 @@ void Simulator::go_on_from(const Simulator& other) {
     d.handle_clocks.go_on_with(carried_over(*from.model, from.handle_clocks.delays(), *d.model));
     d.drags =
         carried_over(*from.model, from.drags, *d.model, state, d.handle_clocks.times(time), Drags(d.model));
+    d.arms = HandleArms(d.model, carried_over(*from.model, from.arms.programmed(), *d.model));
+    d.cavity_gas = carried_over(*from.model, from.cavity_gas, *d.model);
     d.take_state(state,
                  {frame, time, static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
 }

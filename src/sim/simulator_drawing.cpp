@@ -2,10 +2,25 @@
 #include "core/stage.h"
 #include "gelatin/error.h"
 #include "gl/object_name.h"
+#include "sim/attachment_lines.h"
 #include "sim/backend.h"
+#include "sim/bone_lines.h"
 #include "sim/simulator_impl.h"
 
 namespace gelatin {
+
+std::vector<OverlayLine> Simulator::Impl::overlay_lines(const Overlays& overlays) {
+    const std::vector<glm::vec4> positions = solver->read_state().positions;
+    std::vector<OverlayLine> lines;
+    if (overlays.attachments) lines = attachment_lines(shown_attachments(), *model, positions);
+    if (!overlays.bones) return lines;
+    for (std::size_t h = 0; h < model->handles.size(); ++h) {
+        if (!is_held(model->handles[h], time_of(h), clock.step_size())) continue;
+        const std::vector<OverlayLine> bones = bone_lines(*model, h, pose_of(h), time_of(h), positions);
+        lines.insert(lines.end(), bones.begin(), bones.end());
+    }
+    return lines;
+}
 
 RenderView Simulator::render_view(const Overlays& overlays) {
     gl::forget_state();  // the application may have used OpenGL since
@@ -20,9 +35,8 @@ RenderView Simulator::render_view(const Overlays& overlays) {
     const Stage stage(d.solver->stage_timer(), "update_overlays");
     view.overlay =
         d.solver.visit([&](auto& solver) { return d.overlay_source->update(overlays, view, solver); });
-    if (overlays.attachments)
-        d.overlay_source->view_attachments(d.shown_attachments(), d.solver->read_state().positions,
-                                           view.overlay);
+    if (overlays.attachments || overlays.bones)
+        d.overlay_source->view_lines(d.overlay_lines(overlays), view.overlay);
     return view;
 }
 

@@ -57,9 +57,21 @@ const StateCopies& Simulator::Impl::copied_state() const {
 
 Checkpoint Simulator::Impl::checkpoint() const {
     const Moment now = clock.now();
-    return {now.frame,          now.time,        solver->read_state(),
-            drags.drags(),      drags.targets(), handle_clocks.delays(),
-            set_cavity_drives()};
+    Checkpoint made{now.frame,          now.time,        solver->read_state(),
+                    drags.drags(),      drags.targets(), handle_clocks.delays(),
+                    set_cavity_drives()};
+    if (arms.programmed().empty()) return made;
+    Archive archive = Archive::that_writes(made.programmed);
+    HandleArms(arms).archive(archive);
+    return made;
+}
+
+HandleArms Simulator::Impl::arms_of(const Checkpoint& checkpoint, const std::filesystem::path& file) const {
+    HandleArms made(model);
+    Archive archive = Archive::that_reads(checkpoint.programmed);
+    if (!checkpoint.programmed.empty() && !made.archive(archive))
+        throw InvalidInput({file.string(), 0, {}, {}, "was made from a scene with other animated colliders"});
+    return made;
 }
 
 Moment Simulator::Impl::moment_of(const Checkpoint& checkpoint) const {

@@ -77,10 +77,10 @@ struct Simulator::Impl {
     virtual int steps_a_frame() const = 0;
     /// For what changes a run. @throws InvalidInput if a recording is played
     virtual Simulation& simulation() = 0;
-    /// Of recordings none.
-    virtual std::vector<CavityStatus> cavity_states() const = 0;
     /// Those that are drawn.
     virtual std::span<const Attachment> shown_attachments() = 0;
+    /// Of attachments and bones.
+    std::vector<OverlayLine> overlay_lines(const Overlays& overlays);
     /// Null: it simulates.
     virtual Playback* playback() = 0;
 
@@ -101,8 +101,14 @@ struct Simulator::Impl {
     HandlePose pose_of(std::size_t handle) const;
     const StateCopies& copied_state() const;
     Checkpoint checkpoint() const;
+    std::vector<CavityStatus> cavity_states() const;
+    /// As Cavity::drive_at.
+    double cavity_drive(std::size_t cavity, double time) const;
     /// As Checkpoint::cavity_drives.
     std::vector<double> set_cavity_drives() const;
+    void set_cavity_drives(const std::vector<double>& drives);
+    /// @throws InvalidInput naming the file, if it does not fit
+    HandleArms arms_of(const Checkpoint& checkpoint, const std::filesystem::path& file) const;
     Moment moment_of(const Checkpoint& checkpoint) const;
     void warn_of_losses(const Measurement& measured);
     std::vector<AttachmentStatus> attachment_states() const;

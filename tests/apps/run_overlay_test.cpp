@@ -14,7 +14,7 @@ TEST_F(RunOverlays, RefusesWhatItDoesNotKnow) {
     expect_error(
         {"run", "cube.toml", "--overlay", "faces,bxes"}, 2,
         "--overlay = bxes: must be boxes, faces, springs, stretch, stress, speed, pressure, cut, velocity, "
-        "forces, objects, wireframe or attachments (did you mean \"boxes\"?)");
+        "forces, objects, wireframe, attachments or bones (did you mean \"boxes\"?)");
     expect_error({"run", "cube.toml", "--overlay", "faces:2"}, 2,
                  "--overlay = faces:2: faces takes no number");
     for (const char* text : {"boxes:", "boxes:x", "boxes:1.5", "boxes:-1", "boxes:13"}) {

@@ -219,7 +219,7 @@ TEST_P(OverlayTest, AttachmentsAreWhereTheyProject) {
          glm::vec4(left, 1.0f), glm::vec4(right, 0.0f), glm::vec4(behind - glm::vec3(0.7f, 0.0f, 0.0f), 2.0f),
          glm::vec4(behind + glm::vec3(0.7f, 0.0f, 0.0f), 0.0f)});
     const Image plain = draw();
-    const Image image = draw({.attachment_lines = lines.id(), .attachment_line_count = 4});
+    const Image image = draw({.lines = lines.id(), .line_count = 4});
     for (const glm::vec3& point : {left, right}) {
         const glm::dvec3 color = color_at(image, point);
         EXPECT_GT(color.b, color.r + 60.0) << "blue at " << point.x;
@@ -234,6 +234,20 @@ TEST_P(OverlayTest, AttachmentsAreWhereTheyProject) {
     const glm::ivec2 hidden(project(behind + glm::vec3(0.2f, 0.0f, 0.0f)));
     EXPECT_GT(around(image, hidden).r, around(plain, hidden).r + 15.0) << "and through it";
     EXPECT_EQ(draw().pixels, plain.pixels) << "nothing stays";
+}
+
+// A bone behind the ball, and a node that it carries before it.
+TEST_P(OverlayTest, BonesShowThroughBodies) {
+    const glm::vec3 from(-0.2f, 0.6f, -0.6f), to(0.2f, 0.6f, -0.6f), node(0.0f, 0.8f, 0.5f);
+    const auto lines = buffer_of<glm::vec4>(
+        {glm::vec4(node, 4.0f), glm::vec4(node, 0.0f), glm::vec4(from, 3.0f), glm::vec4(to, 0.0f)});
+    const Image plain = draw();
+    const Image image = draw({.lines = lines.id(), .line_count = 2});
+    const glm::dvec3 bone = color_at(image, 0.5f * (from + to));
+    const glm::dvec3 body = color_at(plain, 0.5f * (from + to));
+    EXPECT_LT(bone.r + bone.g + bone.b, 0.6 * (body.r + body.g + body.b)) << "dark";
+    const glm::dvec3 carried = color_at(image, node);
+    EXPECT_GT(carried.r, carried.b + 100.0) << "yellow";
 }
 
 // Heavy, though it is quick: LeakSanitizer crashes behind it ("Tracer caught signal 11").

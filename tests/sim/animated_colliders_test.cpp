@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "core/file.h"
 #include "gelatin/error.h"
+#include "gelatin/recording.h"
 #include "mesh/shapes.h"
 #include "model/scene/override_scene.h"
 #include "sim/recording/recorded_meshes.h"
@@ -89,6 +91,45 @@ TEST_F(AnimatedColliders, CheckpointsHaveWhereProgramsMoveThem) {
     third.load_checkpoint(folder.path() / "b.gelck", {});
     third.advance_frame();
     EXPECT_EQ(first.read_frame().positions, third.read_frame().positions);
+}
+
+TEST_F(AnimatedColliders, RecordingsHaveWhereProgramsMoveThem) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "run.gel";
+    Simulator run(scene, on_cpu());
+    RecordingWriter writer(file, run);
+    std::vector<std::vector<float>> positions;
+    for (int f = 0; f < 40; ++f) {  // over two key frames
+        if (f < 36) run.set_collider_vertices("plate", vertices_at(run.time() + kFrame));
+        writer.write(run);
+        positions.push_back(run.read_frame().positions);
+        run.advance_frame();
+    }
+    writer.finish();
+    const Range& plate = model_of(run).objects.back().nodes;
+    const auto expect_plate = [&](const Simulator& simulator, const Vertices& vertices) {
+        for (std::uint32_t n = 0; n < plate.count; ++n) {
+            const glm::vec3 found(simulator.positions()[plate.first + n]);
+            EXPECT_TRUE(std::any_of(vertices.begin(), vertices.end(), [&](const glm::dvec3& p) {
+                return glm::distance(found, glm::vec3(p)) < 1e-5f;
+            }));
+        }
+    };
+    Simulator player(std::make_shared<const Recording>(file), on_cpu());
+    for (const std::size_t k : {5u, 39u, 20u}) {
+        player.show_recorded(k);
+        EXPECT_EQ(player.read_frame().positions, positions[k]);
+        expect_plate(player, vertices_at(kFrame * static_cast<double>(std::min<std::size_t>(k, 36))));
+    }
+    // What goes on from frame 20 ends the movement that was set there, and stays.
+    Simulator later(scene, on_cpu()), other(scene, on_cpu());
+    later.load_checkpoint(file, 20);
+    other.go_on_from(player);
+    for (Simulator* each : {&later, &other})
+        for (int f = 0; f < 2; ++f) {
+            each->advance_frame();
+            expect_plate(*each, vertices_at(21.0 * kFrame));
+        }
 }
 
 TEST_F(AnimatedColliders, ResetPutsThemBack) {

@@ -7,16 +7,20 @@
 #include <assimp/Importer.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/file.h"
 #include "gelatin/error.h"
+#include "mesh/shapes.h"
 #include "model/skin.h"
 #include "sim/animation/animated_surface.h"
 #include "sim/simulator_internals.h"
@@ -204,6 +208,75 @@ TEST_F(AnimationFileTest, UsdHasTimeSamplesOfSurfacesAndTets) {
         ASSERT_NE(at, std::string::npos);
         EXPECT_EQ(std::stof(text.substr(at + start.size(), 20)), first.x);
     }
+}
+
+// A box whose vertices a program moves, each by its own way.
+class AnimationOfCollider : public AnimationFileTest {
+protected:
+    AnimationOfCollider() {
+        Scene scene = this->scene();
+        const auto mesh = std::make_shared<Mesh>();
+        const SurfaceMesh box = make_box({{2.0, 0.2, 2.0}, {1, 1, 1}});
+        mesh->vertices = box.positions;
+        mesh->triangles = box.faces;
+        scene.colliders.back().name = "plate";
+        scene.colliders.back().shape = MeshShape{mesh};
+        scene.colliders.back().animation = AnimationDescription{AnimationByProgram()};
+        Simulator moved(scene, on_cpu());
+        frames_ = {moved.read_frame()};
+        for (int k = 0; k < 3; ++k) {
+            for (std::size_t v = 0; v < 8; ++v) mesh_[v] = box.positions[v];
+            for (std::size_t v = 0; v < 8; ++v) mesh_[v].y -= 1e-3 * (k + 1) * static_cast<double>(v + 1);
+            moved.set_collider_vertices("plate", {mesh_.begin(), mesh_.end()});
+            moved.advance_frame();
+            frames_.push_back(moved.read_frame());
+        }
+        simulator_ = std::move(moved);
+        surface_ = make_animated_surface(model_of(simulator_));
+    }
+
+    // Where the last frame has the vertices, in the scene.
+    std::vector<glm::vec3> last() const {
+        std::vector<glm::vec3> vertices;
+        for (const glm::dvec3& p : mesh_) vertices.emplace_back(p + glm::dvec3(0.0, -0.2, 0.0));
+        return vertices;
+    }
+    static void expect_all_among(const std::vector<glm::vec3>& found, const std::vector<glm::vec3>& wanted) {
+        for (const glm::vec3& p : wanted)
+            EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                                    [&](const glm::vec3& other) { return glm::distance(p, other) < 2e-6f; }))
+                << p.x << " " << p.y << " " << p.z;
+    }
+
+    std::array<glm::dvec3, 8> mesh_;
+};
+
+TEST_F(AnimationOfCollider, GltfHasItsVerticesInEachFrame) {
+    Assimp::Importer importer;
+    const aiScene* const read = importer.ReadFile(write("plate.glb").string(), 0);
+    ASSERT_NE(read, nullptr) << importer.GetErrorString();
+    const aiMesh& plate = *read->mMeshes[2];
+    ASSERT_EQ(plate.mNumAnimMeshes, 3u);
+    std::vector<glm::vec3> found;
+    for (unsigned v = 0; v < plate.mNumVertices; ++v) {
+        const aiVector3D& p = plate.mAnimMeshes[2]->mVertices[v];
+        found.emplace_back(p.x, p.y, p.z);
+    }
+    expect_all_among(found, last());
+}
+
+TEST_F(AnimationOfCollider, UsdHasItsVerticesInEachFrame) {
+    const std::string text = read_file(write("plate.usda"));
+    std::size_t at = text.find("point3f[] points.timeSamples", text.find("def Mesh \"plate\""));
+    at = text.find("3: [", at);
+    ASSERT_NE(at, std::string::npos);
+    std::vector<glm::vec3> found;
+    for (const std::size_t end = text.find(']', at); (at = text.find('(', at)) < end; ++at) {
+        glm::vec3 p;
+        ASSERT_EQ(std::sscanf(text.c_str() + at, "(%f, %f, %f)", &p.x, &p.y, &p.z), 3);
+        found.push_back(p);
+    }
+    expect_all_among(found, last());
 }
 
 TEST_F(AnimationFileTest, UsdHasNoTetsOfRigidBodies) {

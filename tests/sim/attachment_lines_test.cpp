@@ -28,7 +28,7 @@ Scene two_boxes() {
     return scene;
 }
 
-std::vector<AttachmentLine> lines_of(const AttachmentDescription& attachment, bool is_broken = false) {
+std::vector<OverlayLine> lines_of(const AttachmentDescription& attachment, bool is_broken = false) {
     Scene scene = two_boxes();
     scene.attachments.push_back(attachment);
     SimulatorOptions options;
@@ -47,8 +47,8 @@ void expect_near(const glm::vec4& found, const glm::vec3& expected) {
 // Both sides carry the point, each with other weights.
 TEST(AttachmentLines, APointIsWhereItWasAttached) {
     const auto lines = lines_of({.object = "box 0", .to = "box 1", .where = AttachedPoint{{0.25, 0.1, 0.0}}});
-    const AttachmentLine& point = lines.back();
-    EXPECT_EQ(point.from.w, 0.0f);
+    const OverlayLine& point = lines.back();
+    EXPECT_EQ(point.from.w, OverlayLine::kAttached);
     expect_near(point.from, {0.25f, 0.1f, 0.0f});
     EXPECT_EQ(point.to, glm::vec4(glm::vec3(point.from), 0.0f));
     for (std::size_t l = 0; l + 1 < lines.size(); ++l) EXPECT_EQ(lines[l].from.w, 1.0f) << "its rounding";
@@ -68,7 +68,7 @@ TEST(AttachmentLines, ADistanceHasBothPointsAndALineBetweenThem) {
 TEST(AttachmentLines, JointsHaveTheirAxes) {
     const auto axes_of = [](const AttachmentDescription& attachment) {
         std::vector<glm::vec3> axes;
-        for (const AttachmentLine& line : lines_of(attachment))
+        for (const OverlayLine& line : lines_of(attachment))
             if (line.from.w == 2.0f)
                 axes.push_back(glm::normalize(glm::vec3(line.to) - glm::vec3(line.from)));
         return axes;

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
 #include "gelatin/error.h"
+#include "gelatin/recording.h"
 #include "sim/report.h"
 #include "support/shells.h"
 #include "support/simulator_fixture.h"
@@ -136,6 +138,40 @@ TEST_F(CavitiesTest, CheckpointsHaveWhatProgramsSet) {
     }
     EXPECT_EQ(again.read_frame().positions, whole.read_frame().positions);
     EXPECT_EQ(again.read_frame().velocities, whole.read_frame().velocities);
+}
+
+TEST_F(CavitiesTest, RecordingsHaveWhatProgramsSet) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "run.gel";
+    Simulator run(balls(), on(Backend::cpu));
+    RecordingWriter writer(file, run);
+    std::vector<std::vector<CavityStatus>> statuses;
+    for (int k = 0; k < 8; ++k) {
+        if (k == 3) run.set_cavity(1, {.pressure = 2e4});
+        advance(run, 1);
+        writer.write(run);
+        statuses.push_back(run.cavities());
+    }
+    writer.finish();
+    Simulator player(std::make_shared<const Recording>(file), on(Backend::cpu));
+    for (const std::size_t k : {0u, 7u, 2u, 3u}) {
+        player.show_recorded(k);
+        const std::vector<CavityStatus> shown = player.cavities();
+        ASSERT_EQ(shown.size(), 2u);
+        for (std::size_t c = 0; c < 2; ++c) {
+            EXPECT_EQ(shown[c].pressure, statuses[k][c].pressure) << "frame " << k << ", cavity " << c;
+            EXPECT_EQ(shown[c].volume, statuses[k][c].volume) << "frame " << k << ", cavity " << c;
+        }
+    }
+    EXPECT_EQ(player.cavities()[1].pressure, 2e4);
+    Simulator later(balls(), on(Backend::cpu)), other(balls(), on(Backend::cpu));
+    later.load_checkpoint(file);
+    other.go_on_from(player);
+    for (Simulator* each : {&later, &other}) {
+        advance(*each, 1);
+        EXPECT_EQ(each->cavities()[1].pressure, 2e4);
+        EXPECT_NE(each->cavities()[0].pressure, 2e4);
+    }
 }
 
 // Materials are changed while it is inflated.

@@ -145,6 +145,23 @@ TEST(Export, VtuHasFacesOfRigidBodies) {
     EXPECT_EQ(read_tets(folder.path() / "frame.vtu", notes).positions.size(), 4u) << "of the other";
 }
 
+// The second of two tets becomes the surface of a collider, which moves.
+TEST(Export, VtuHasCollidersWhereTheyAre) {
+    Model model = two_tets();
+    model.surfaces.resize(1);
+    model.tets.pop_back();
+    model.shear_moduli.pop_back();
+    model.objects[1].tets = {1, 0};
+    HostFrame frame = frame_of(0);
+    frame.positions[3 * 8 + 1] += 0.5f;
+    const std::string vtu = vtu_text(make_export_topology(model), frame);
+    EXPECT_THAT(vtu, HasSubstr("NumberOfPoints=\"9\" NumberOfCells=\"5\""));
+    EXPECT_EQ(data_array<float>(vtu, "Points"), frame.positions);
+    EXPECT_EQ(data_array<float>(vtu, "displacement")[3 * 8 + 1], 0.5f);
+    EXPECT_EQ(data_array<std::uint8_t>(vtu, "types"), (std::vector<std::uint8_t>{10, 5, 5, 5, 5}));
+    EXPECT_EQ(data_array<std::int32_t>(vtu, "object"), (std::vector<std::int32_t>{0, 1, 1, 1, 1}));
+}
+
 TEST(Export, PlyHasVelocitiesAndObjects) {
     const std::string bytes = ply_bytes(make_export_topology(two_tets()), frame_of(0));
     const std::string end = "end_header\n";

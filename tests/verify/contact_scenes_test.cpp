@@ -383,6 +383,26 @@ TEST(ContactScenesHeavy, ACarDrivesOverALogAndUpAKerb) {
     EXPECT_NEAR(scene.center(0).y, 0.1 + 0.45, 0.04);  // on the kerb
 }
 
+// Objects: two wheels on an axle, and their tyres.
+TEST(ContactScenesHeavy, WheelsRollOnTyresThatAreFilled) {
+    ContactScene scene("tyre.toml");
+    scene.advance_to(45);
+    const double flat = scene.center(0).y;
+    const std::vector<CavityStatus> before = scene.statistics().cavities;
+    scene.advance_to(105);
+    const std::vector<CavityStatus> after = scene.statistics().cavities;
+    EXPECT_GT(scene.center(0).y, flat + 0.02);
+    for (std::size_t c = 0; c < 2; ++c) {
+        EXPECT_GT(after[c].pressure, before[c].pressure + 1e4);
+        EXPECT_GT(after[c].volume, 1.1 * before[c].volume);
+    }
+    scene.advance_to(205);
+    EXPECT_GT(scene.center(0).x, 2.3) << "beyond the ledge";
+    EXPECT_LT(std::abs(scene.center(0).z), 0.1);
+    for (std::size_t tyre = 1; tyre <= 2; ++tyre)
+        EXPECT_LT(std::abs(scene.center(tyre).y - scene.center(0).y), 0.03) << "it holds the wheel";
+}
+
 // Objects: a top that leans, one with a level axis on a post, a slow one.
 TEST(ContactScenesHeavy, TopsPrecessUnlessTheyAreSlow) {
     ContactScene scene("tops.toml");

@@ -28,7 +28,7 @@ TEST(OverlayChoices, EachKeyTurnsItsOverlayOnAndOff) {
          {Command::toggle_springs, Command::toggle_faces, Command::toggle_boxes, Command::toggle_cut,
           Command::toggle_stretch, Command::toggle_stress, Command::toggle_speed, Command::toggle_arrows,
           Command::toggle_pressure, Command::toggle_contact_forces, Command::toggle_wireframe,
-          Command::toggle_objects, Command::toggle_attachments}) {
+          Command::toggle_objects, Command::toggle_attachments, Command::toggle_bones}) {
         EXPECT_TRUE(after({command}).any());
         EXPECT_FALSE(after({command, command}).any());
     }

@@ -183,12 +183,12 @@ void BodySkeleton::find_bones() {
             above = of.nodes[above].parent;
         if (above == TreeNodePose::kRoot) continue;
         bones_.push_back(
-            {joints[above], glm::dvec3(places[above][3]), glm::dvec3(places[of.joints[j].node][3])});
+            {joints[above], j, glm::dvec3(places[above][3]), glm::dvec3(places[of.joints[j].node][3])});
         has_bone[joints[above]] = true;
     }
     for (std::uint32_t j = 0; j < of.joints.size(); ++j) {
         const glm::dvec3 end(places[of.joints[j].node][3]);
-        if (!has_bone[j]) bones_.push_back({j, end, end});
+        if (!has_bone[j]) bones_.push_back({j, j, end, end});
     }
 }
 
@@ -196,6 +196,8 @@ BodySkeleton::Held BodySkeleton::hold(const std::vector<glm::dvec3>& positions) 
     Held held;
     VertexMotion& motion = held.animation.motion.emplace(motion_);
     auto& of = std::get<SkinnedVertices>(motion.of);
+    for (const Bone& bone : bones_)
+        held.animation.bones.push_back({of.joints[bone.joint].node, of.joints[bone.next].node});
     const glm::dmat3 to_file = glm::inverse(map_);
     for (std::uint32_t n = 0; n < positions.size(); ++n) {
         const glm::dvec3 p = to_file * (positions[n] - offset_);

@@ -41,7 +41,7 @@ public:
 private:
     // From the place of a joint to that of the next one, or of itself where there is none.
     struct Bone {
-        std::uint32_t joint;
+        std::uint32_t joint, next;
         glm::dvec3 from, to;
     };
     void find_bones();

@@ -18,6 +18,11 @@ struct HandleAnimation {
     glm::dmat3 map{1.0};
     glm::dvec3 offset{0.0};  ///< [m]
     std::size_t vertex_count = 0;
+    /// From the place of one node of the motion to that of another, or of itself.
+    struct Bone {
+        std::uint32_t from, to;
+    };
+    std::vector<Bone> bones = {};  ///< of a skeleton
 
     /// Until when they move by themselves [s].
     double end() const;

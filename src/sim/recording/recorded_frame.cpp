@@ -139,7 +139,7 @@ bool keeps_earlier_velocities(const RecordedFrame& frame, const RecordedFrame* p
 
 struct Fixed {  // of a frame, before its arrays
     std::int32_t frame;
-    std::int32_t reserved;
+    std::int32_t is_as_before;  // 1: what programs want of handles is as in the frame before, and left out
     double time;
     std::uint64_t counts[kArrays];
 };
@@ -151,13 +151,17 @@ std::string encoded_frame(const RecordedFrame& frame, const EarlierNeighbours& n
     const Checkpoint& moment = frame.moment;
     Arrays arrays = arrays_of(frame);
     if (!keeps_earlier_velocities(frame, previous)) arrays.of[earlier_velocities].clear();
-    Fixed fixed{moment.frame, 0, moment.time, {}};
+    const bool is_as_before = previous != nullptr && moment.programmed == previous->moment.programmed;
+    Fixed fixed{moment.frame, is_as_before ? 1 : 0, moment.time, {}};
     for (std::size_t a = 0; a < kArrays; ++a) fixed.counts[a] = arrays.of[a].size();
     ArrayWriter small;
     small.add(std::vector<Fixed>{fixed});
     small.add(moment.drags);
     small.add(moment.drag_targets);
     small.add(moment.delays);
+    small.add(moment.cavity_drives);
+    small.add(is_as_before ? std::vector<char>()
+                           : std::vector<char>(moment.programmed.begin(), moment.programmed.end()));
     small.add(frame.contacts.between);
     small.add(frame.holds.by_handle);
     small.add(frame.holds.torques);
@@ -178,6 +182,8 @@ RecordedFrame decoded_frame(std::string_view bytes, const Model& model, const Ea
                       objects = model.objects.size();
     const std::size_t most = 4096 + kArrays * nodes * sizeof(glm::vec4) +
                              handles * (2 * sizeof(Drag) + 7 * sizeof(double)) +
+                             model.cavities.size() * sizeof(double) + handles * 5 * sizeof(double) +
+                             model.handle_nodes.size() * 2 * sizeof(glm::dvec3) +
                              objects * (objects + model.colliders.size()) * sizeof(ContactForces::Between);
     const std::string content = decompressed(bytes, most);
     std::vector<char> head;
@@ -188,14 +194,19 @@ RecordedFrame decoded_frame(std::string_view bytes, const Model& model, const Ea
     RecordedFrame frame;
     Checkpoint& moment = frame.moment;
     std::vector<Fixed> fixed;
+    std::vector<char> programmed;
     const bool is_whole = reader.take(fixed) && reader.take(moment.drags) &&
                           reader.take(moment.drag_targets) && reader.take(moment.delays) &&
+                          reader.take(moment.cavity_drives) && reader.take(programmed) &&
                           reader.take(frame.contacts.between) && reader.take(frame.holds.by_handle) &&
                           reader.take(frame.holds.torques) && reader.at_end() && fixed.size() == 1;
     if (!is_whole || moment.drags.size() != handles || moment.drag_targets.size() != handles ||
-        moment.delays.size() != handles)
+        moment.delays.size() != handles || (fixed[0].is_as_before != 0 && previous == nullptr) ||
+        (!moment.cavity_drives.empty() && moment.cavity_drives.size() != model.cavities.size()))
         refuse();
     moment.frame = fixed[0].frame;
+    moment.programmed = fixed[0].is_as_before != 0 ? previous->moment.programmed
+                                                   : std::string(programmed.begin(), programmed.end());
     moment.time = fixed[0].time;
 
     std::string_view left = std::string_view(content).substr(sizeof(std::uint64_t) + small.size());

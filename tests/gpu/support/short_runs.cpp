@@ -74,6 +74,7 @@ Overlays everything() {
     all.objects = true;
     all.wireframe = true;
     all.attachments = true;
+    all.bones = true;
     return all;
 }
 
@@ -91,6 +92,7 @@ std::vector<Overlays> kinds_of_overlays() {
     kinds.emplace_back().color_map = ColorMap{Quantity::pressure, {}};
     kinds.emplace_back().contact_forces = ForceArrows{};
     kinds.emplace_back().attachments = true;
+    kinds.emplace_back().bones = true;
     kinds.push_back(everything());
     return kinds;
 }

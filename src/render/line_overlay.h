@@ -6,10 +6,11 @@
 
 namespace gelatin::render {
 
-/// Attachments: points as dots, lines between the two sides, and axes of joints; hidden parts are fainter.
-class AttachmentOverlay {
+/// Attachments: points as dots, lines between the two sides, and axes of joints. Bones, and dots at the nodes
+/// that they carry. Hidden parts are fainter.
+class LineOverlay {
 public:
-    AttachmentOverlay();
+    LineOverlay();
     void draw(const Frame& frame, const OverlayView& overlay) const;
 
 private:

@@ -1,9 +1,10 @@
-// Points, lines and axes of attachments: each a rectangle around a line that faces the screen, six vertices;
-// render/attachments.frag draws the line in it, with round ends. A point is a line without length.
+// Points, lines and axes of attachments, bones and the nodes they carry: each a rectangle around a line that
+// faces the screen, six vertices; render/marked_lines.frag draws the line in it, with round ends. A point is a
+// line without length.
 #include "render/include/cut.glsl"
 #include "render/include/near_plane.glsl"
 
-uniform samplerBuffer attachment_lines;  // xyz of one end [m], what it is; xyz of the other end
+uniform samplerBuffer marked_lines;  // xyz of one end [m], what it is; xyz of the other end
 uniform mat4 world_to_clip;
 uniform vec2 picture_size;  // [pixels]
 uniform float line_scale;
@@ -14,14 +15,16 @@ flat out float half_width;     // [pixels]
 flat out vec3 ink;             // sRGB
 
 const float kRoom = 3.0;  // round the line, for its rim [pixels]
-// By what it is: a point; a line between two sides; an axis. src/sim/attachment_lines.cpp.
-const float kHalfWidths[3] = float[](3.5, 1.0, 1.2);  // [pixels of a usual screen]
-const vec3 kInks[3] = vec3[](vec3(0.02, 0.36, 0.72), vec3(0.02, 0.36, 0.72), vec3(0.60, 0.05, 0.50));
+// By what it is: a point of an attachment; a line between its two sides; an axis; a bone; a node that it
+// carries. src/sim/overlay_line.h.
+const float kHalfWidths[5] = float[](3.5, 1.0, 1.2, 2.5, 1.8);  // [pixels of a usual screen]
+const vec3 kInks[5] = vec3[](vec3(0.02, 0.36, 0.72), vec3(0.02, 0.36, 0.72), vec3(0.60, 0.05, 0.50),
+                             vec3(0.10, 0.10, 0.12), vec3(0.98, 0.78, 0.05));
 
 void main() {
-    vec4 from = texelFetch(attachment_lines, 2 * (gl_VertexID / 6));
-    vec3 to = texelFetch(attachment_lines, 2 * (gl_VertexID / 6) + 1).xyz;
-    int kind = clamp(int(from.w), 0, 2);
+    vec4 from = texelFetch(marked_lines, 2 * (gl_VertexID / 6));
+    vec3 to = texelFetch(marked_lines, 2 * (gl_VertexID / 6) + 1).xyz;
+    int kind = clamp(int(from.w), 0, 4);
     vec4 a = world_to_clip * vec4(from.xyz, 1.0), b = world_to_clip * vec4(to, 1.0);
     bool is_hidden = cut_by_near_plane(a, b) || depth_below_cut(0.5 * (from.xyz + to)) < 0.0;
 
