@@ -72,6 +72,7 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
 // it is.
 template <class Real>
 void FindPairs<Real>::update_boxes(std::size_t object, const Paths<Real>& paths) {
+    nearness_[object] = paths.nearness;
     const Vec3<Real>& frame = motions_[object];
     const SurfaceParts& parts = model_->surface_parts;
     const auto margin = BoxMargin<Real>::for_distance(
@@ -178,7 +179,6 @@ void FindPairs<Real>::begin(const Paths<Real>& paths, bool own, std::span<const 
                                          paths.from.begin() + nodes.first);
         if (std::exchange(is_still_[o], is_still ? 1 : 0) != 0 && is_still && nearness_[o] >= paths.nearness)
             return;  // its boxes are there
-        nearness_[o] = paths.nearness;
         glm::dvec3 sum(0.0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             sum += glm::dvec3(paths.to[n]) - glm::dvec3(paths.from[n]);

@@ -455,28 +455,24 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
     return true;
 }
 
-// Where a solver wants nodes beside the paths that pairs were found for, those are found that may cross on
-// the ways that it wants. They are fewer: what only presses is not among them.
+// Where a solver wants nodes beside the paths that pairs were found for, or the guard moves them there, pairs
+// of the new paths are found: those that may cross, since none of them is to press any more.
 template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
-    Paths<Real> paths{previous.positions, ends_, slacks_};
-    const auto has_lost = [&] { return contacts_ && pairs_.find_lost(current.positions); };
-    if (contacts_ && (!guard_.strays(paths, current.positions).empty() || has_lost())) {
-        paths.nearness = static_cast<Real>(tuning::kLeastOfReach);
-        ends_ = current.positions;
-        for (std::size_t o = 0; o < slacks_.size(); ++o)
-            slacks_[o] = static_cast<Real>(tuning::kSlackOfThickness * surface_->thicknesses[o]);
-        pairs_.begin(paths, true, asleep_);
-        pairs_.run(paths);
-    }
+    const Paths<Real> paths{previous.positions, ends_, slacks_, static_cast<Real>(tuning::kLeastOfReach)};
+    const auto list = [&](std::span<const std::uint32_t> strays) {
+        const bool has_lost = contacts_ && pairs_.find_lost(current.positions);
+        if (!contacts_ || (strays.empty() && !has_lost)) return false;
+        for (const std::uint32_t n : strays) ends_[n] = current.positions[n];
+        pairs_.update(paths, strays);
+        return true;
+    };
+    list(guard_.strays(paths, current.positions));
     for (int k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
             guard_.run(paths, pairs_.pairs(), compliances_, current.positions);
         if (!guard_.has_changed()) return k > 0;
-        if (!has_lost() && (!contacts_ || strays.empty()))
-            return true;  // in this order: update() adds what is lost
-        for (const std::uint32_t n : strays) ends_[n] = current.positions[n];
-        pairs_.update(paths, strays);
+        if (!list(strays)) return true;
     }
     for_each_index(ends_.size(), [&](std::size_t n) {  // nothing moves
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
