@@ -316,7 +316,7 @@ template <class Real>
 void FindPairs<Real>::search(const Subtree& subtree, const Paths<Real>& paths, bool changed,
                              Found& found) const {
     const std::vector<TreeNode>& nodes = model_->face_trees.nodes;
-    const auto [object, root] = subtree;
+    const std::uint32_t object = subtree.object, root = subtree.root;
     const auto has_new = [&](std::uint32_t other) {
         return has_changed_[other] != 0 ||
                (other == object && owns_[object].boxes.size() > owns_[object].listed);
