@@ -52,21 +52,18 @@ double volume_energy(const Model& model, std::uint32_t n, std::uint32_t first,
     return node.x * node.y * volume_potential(0.25 * volume / node.x, node.y);
 }
 
-// Volumes of tets. @return what flat ones hold, if they are of springs [J]
+// Volume ratios of tets. @return what flat ones hold, if they are of springs [J]
 template <class Real>
-double find_volumes(const Model& model, const Range& tets, std::span<const Vec4<Real>> positions,
-                    Real* volumes, bool are_springs) {
+double find_ratios(const Model& model, const Range& tets, std::span<const Vec4<Real>> positions, Real* ratios,
+                   bool are_springs) {
     const auto flattest = static_cast<Real>(kFlattest);
     constexpr Real kAny = std::numeric_limits<Real>::infinity();
-    const bool any_flat = !volumes_are_within(flattest, kAny, model, tets, positions.data(), volumes);
+    const bool any_flat = !volumes_are_within(flattest, kAny, model, tets, positions.data(), ratios);
     double energy = 0.0;
-    for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
+    for (std::uint32_t t = tets.first; any_flat && are_springs && t < tets.end(); ++t) {
         const TetRest& rest = model.tet_rests[t];
-        Real& volume = volumes[t - tets.first];  // so far the part of that at rest
-        if (any_flat && are_springs)
-            energy += flat_tet_energy(static_cast<double>(volume),
-                                      static_cast<double>(rest.volume) * static_cast<double>(rest.modulus));
-        volume *= static_cast<Real>(rest.volume);
+        energy += flat_tet_energy(static_cast<double>(ratios[t - tets.first]),
+                                  static_cast<double>(rest.volume) * static_cast<double>(rest.modulus));
     }
     return energy;
 }
@@ -123,8 +120,11 @@ double body_energy(const Model& model, const ModelObject& object, std::span<cons
     if (!volumes.empty())
         energy += sum_tasks(object.tets.count, [&](const auto& share_of) {
             const Range tets = share_of(object.tets);
-            return find_volumes(model, tets, positions, volumes.data() + (tets.first - object.tets.first),
-                                has_flat_tets);
+            Real* const of_task = volumes.data() + (tets.first - object.tets.first);
+            const double flat = find_ratios(model, tets, positions, of_task, has_flat_tets);
+            for (std::uint32_t t = 0; has_volumes && t < tets.count; ++t)
+                of_task[t] *= static_cast<Real>(model.tet_rests[tets.first + t].volume);
+            return flat;
         });
     const std::uint32_t elements = object.nodes.count + object.springs.count + object.neo_hookean_tets.count;
     return energy + sum_tasks(elements, [&](const auto& share_of) {

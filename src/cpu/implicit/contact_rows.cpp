@@ -119,7 +119,7 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
             const SurfaceDistance<Real> to = surface_distance(collider, Vec3<Real>(start.positions[n]));
             // Of pairs, only those are listed that may come as near.
             const std::uint32_t object = object_of_[n];
-            const Real reach = static_cast<Real>(surface_->thicknesses[object]);
+            const auto reach = static_cast<Real>(surface_->thicknesses[object]);
             const Real nearest = to.distance + std::min(Real(0), glm::dot(to.normal, start.expected[n]));
             if (nearest > reach + start.slacks[object]) continue;
             ContactRow<Real> row;

@@ -37,7 +37,6 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
       owns_(model_->objects.size()),
       rest_boxes_(model_->face_trees.nodes.size()),
       is_still_(model_->objects.size()),
-      nearness_(model_->objects.size()),
       is_changed_(model_->node_count()),
       is_changed_face_(model_->faces.size()),
       has_changed_(model_->objects.size()),
@@ -72,7 +71,6 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
 // it is.
 template <class Real>
 void FindPairs<Real>::update_boxes(std::size_t object, const Paths<Real>& paths) {
-    nearness_[object] = paths.nearness;
     const Vec3<Real>& frame = motions_[object];
     const SurfaceParts& parts = model_->surface_parts;
     const auto margin = BoxMargin<Real>::for_distance(
@@ -177,8 +175,7 @@ void FindPairs<Real>::begin(const Paths<Real>& paths, bool own, std::span<const 
         const bool is_still = (o < asleep.size() ? asleep[o] != 0 : !model_->is_body(o)) &&
                               std::equal(paths.to.begin() + nodes.first, paths.to.begin() + nodes.end(),
                                          paths.from.begin() + nodes.first);
-        if (std::exchange(is_still_[o], is_still ? 1 : 0) != 0 && is_still && nearness_[o] >= paths.nearness)
-            return;  // its boxes are there
+        if (std::exchange(is_still_[o], is_still ? 1 : 0) != 0 && is_still) return;  // its boxes are there
         glm::dvec3 sum(0.0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             sum += glm::dvec3(paths.to[n]) - glm::dvec3(paths.from[n]);

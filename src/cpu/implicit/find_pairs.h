@@ -55,8 +55,8 @@ struct Paths {
     Real nearness = 1;                     ///< within which part of their reach pairs are wanted
 };
 
-/// Lists all pairs of surface nodes and faces, and of surface edges, that may come nearer than their reach
-/// while nodes keep to their paths. The same list, in the same order, for any number of threads.
+/// Lists all pairs of surface nodes and faces, and of surface edges, that may come as near as their paths say
+/// while nodes keep to these. The same list, in the same order, for any number of threads.
 template <class Real>
 class FindPairs {
 public:
@@ -74,8 +74,7 @@ public:
     /// node beside the mean of all; in reaches, at most.
     Real fastest_approach(const Paths<Real>& paths) const;
     void run(const Paths<Real>& paths);
-    /// Lists the pairs of these nodes anew, as their paths have changed, and those that find_lost() wants,
-    /// behind all others.
+    /// Lists the pairs of these nodes anew, as their paths have changed, and those that find_lost() wants.
     void update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes);
     /// Finds where bodies may meet themselves on the way to `ends`, though pairs were left out, as they
     /// hardly deformed there. @return whether they do somewhere: then update() has to follow
@@ -101,7 +100,7 @@ private:
                                                          // which a body lost something
         std::vector<AxisBox<Real>> boxes;
         std::vector<BoxPair> meeting;
-        std::vector<ContactPair> maybe_nodes, maybe_edges;
+        std::vector<ContactPair> maybe_nodes, maybe_edges;  // of all leaves, as their boxes meet
         std::vector<NearPair<Real>> of_nodes, of_edges;
     };
     // Of a body that is convex at the start: only those of its own pairs are listed whose lines then meet
@@ -144,7 +143,6 @@ private:
     std::vector<AxisBox<Real>> rest_boxes_;  // of the faces at the start, by node of the trees
     Boxes boxes_;
     std::vector<std::uint8_t> is_still_;  // objects that rest, or colliders that stay where they are
-    std::vector<Real> nearness_;          // of the boxes of objects
     std::vector<std::uint8_t> is_changed_, is_changed_face_, has_changed_;  // nodes, faces, objects; update()
     std::vector<AxisBox<Real>> bounding_boxes_;
     std::vector<Vec3<Real>> motions_;  // of objects on average [m]

@@ -460,19 +460,20 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
 template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
     const Paths<Real> paths{previous.positions, ends_, slacks_, static_cast<Real>(tuning::kLeastOfReach)};
-    const auto list = [&](std::span<const std::uint32_t> strays) {
+    const auto list_anew = [&](std::span<const std::uint32_t> strays) {
+        // In any case: update() lists what is lost, too.
         const bool has_lost = contacts_ && pairs_.find_lost(current.positions);
         if (!contacts_ || (strays.empty() && !has_lost)) return false;
         for (const std::uint32_t n : strays) ends_[n] = current.positions[n];
         pairs_.update(paths, strays);
         return true;
     };
-    list(guard_.strays(paths, current.positions));
+    list_anew(guard_.strays(paths, current.positions));
     for (int k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
             guard_.run(paths, pairs_.pairs(), compliances_, current.positions);
         if (!guard_.has_changed()) return k > 0;
-        if (!list(strays)) return true;
+        if (!list_anew(strays)) return true;
     }
     for_each_index(ends_.size(), [&](std::size_t n) {  // nothing moves
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
