@@ -213,7 +213,7 @@ void FindPairs<Real>::run(const Paths<Real>& paths) {
 }
 
 template <class Real>
-void FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes) {
+std::size_t FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes) {
     for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 1;
     for_each_index(0, has_changed_.size(), 1, [&](std::size_t o) {
         if (has_changed_[o] == 0) return;
@@ -223,9 +223,11 @@ void FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint
     });
     object_tree_.update(bounding_boxes_);
     std::erase_if(pairs_, [&](const NearPair<Real>& near) { return has_changed_node(near.pair); });
+    const std::size_t others = pairs_.size();
     search_all(paths, true);
     for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 0;
     for (Own& own : owns_) own.listed = own.boxes.size();
+    return others;
 }
 
 // @param changed whether pairs of nodes that have changed are wanted alone

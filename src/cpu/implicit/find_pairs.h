@@ -74,8 +74,9 @@ public:
     /// node beside the mean of all; in reaches, at most.
     Real fastest_approach(const Paths<Real>& paths) const;
     void run(const Paths<Real>& paths);
-    /// Lists the pairs of these nodes anew, as their paths have changed, and those that find_lost() wants.
-    void update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes);
+    /// Lists the pairs of these nodes anew, as their paths have changed, and those that find_lost() wants,
+    /// behind all others. @return how many others there are
+    std::size_t update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes);
     /// Finds where bodies may meet themselves on the way to `ends`, though pairs were left out, as they
     /// hardly deformed there. @return whether they do somewhere: then update() has to follow
     bool find_lost(std::span<const Vec4<Real>> ends);

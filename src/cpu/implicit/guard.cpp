@@ -329,7 +329,8 @@ void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<
 
 template <class Real>
 std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
-                                            std::span<const Real> compliances, std::span<Vec4<Real>> ends) {
+                                            std::span<const Real> compliances, std::span<Vec4<Real>> ends,
+                                            std::size_t checked) {
     const std::vector<Vec4<Real>> wanted(ends.begin(), ends.end());
     std::vector<std::uint8_t> is_blocked(model_->objects.size());
     has_changed_ = false;
@@ -337,7 +338,8 @@ std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<
         std::copy(wanted.begin(), wanted.end(), ends.begin());
         for (std::size_t n = 0; n < ends.size(); ++n)
             if (is_blocked[object_of_[n]] != 0 && ends[n].w == Real(0)) ends[n] = paths.from[n];
-        move(paths, pairs, compliances, ends);
+        move(paths, pairs, compliances, ends, checked);
+        checked = 0;
         any_blocked = false;
         has_changed_ = has_changed_ || !half_spaces_.empty();
         for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -352,12 +354,6 @@ std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<
             }
         }
     }
-    return strays(paths, ends);
-}
-
-template <class Real>
-std::vector<std::uint32_t> Guard<Real>::strays(const Paths<Real>& paths,
-                                               std::span<const Vec4<Real>> ends) const {
     std::vector<std::uint32_t> strays;
     for (const std::uint32_t n : model_->surface_parts.nodes)
         if (!(glm::distance(Vec3<Real>(ends[n]), Vec3<Real>(paths.to[n])) <= paths.slacks[object_of_[n]]))
@@ -367,7 +363,7 @@ std::vector<std::uint32_t> Guard<Real>::strays(const Paths<Real>& paths,
 
 template <class Real>
 void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
-                       std::span<const Real> compliances, std::span<Vec4<Real>> ends) {
+                       std::span<const Real> compliances, std::span<Vec4<Real>> ends, std::size_t checked) {
     half_spaces_.clear();
     std::fill(first_.begin(), first_.end(), kNoNode);
     for (auto* flags : {&is_changed_, &is_frozen_}) std::fill(flags->begin(), flags->end(), std::uint8_t(0));
@@ -395,8 +391,9 @@ void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>>
         if (!is_first && !any) break;
         for_each_index(pairs.size(), [&](std::size_t p) {
             const NearPair<Real>& near = pairs[p];
-            const bool is_due = is_first || std::any_of(near.pair.nodes.begin(), near.pair.nodes.end(),
-                                                        [&](std::uint32_t n) { return is_changed_[n] != 0; });
+            const bool is_due = (is_first && p >= checked) ||
+                                std::any_of(near.pair.nodes.begin(), near.pair.nodes.end(),
+                                            [&](std::uint32_t n) { return is_changed_[n] != 0; });
             fails[p] = is_due && !is_apart(near, paths, ends) ? 1 : 0;
         });
         std::fill(is_changed_.begin(), is_changed_.end(), std::uint8_t(0));

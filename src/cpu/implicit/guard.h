@@ -28,12 +28,13 @@ public:
     /// @param pairs all that may cross while nodes keep to `paths`
     /// @param compliances of nodes [m/N], by which a gap is divided; 0: the node does not yield
     /// @param ends input: where nodes are wanted; output: where they go [m]
-    /// @return strays(): these may cross others; then find pairs of where they end, and run again
+    /// @param checked how many of the first pairs are known not to cross there
+    /// @return surface nodes that do not keep to their paths: these may cross others; then find pairs of
+    /// where they end, and run again
     std::vector<std::uint32_t> run(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
-                                   std::span<const Real> compliances, std::span<Vec4<Real>> ends);
+                                   std::span<const Real> compliances, std::span<Vec4<Real>> ends,
+                                   std::size_t checked = 0);
 
-    /// Surface nodes that end beside their paths.
-    std::vector<std::uint32_t> strays(const Paths<Real>& paths, std::span<const Vec4<Real>> ends) const;
     /// Whether the last run moved any node.
     bool has_changed() const { return has_changed_; }
     /// Of all runs.
@@ -51,7 +52,7 @@ private:
     };
 
     void move(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
-              std::span<const Real> compliances, std::span<Vec4<Real>> ends);
+              std::span<const Real> compliances, std::span<Vec4<Real>> ends, std::size_t checked);
     void find_frames(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
                      std::span<const Vec4<Real>> ends);
     Vec3<Real> outside_planes(Vec3<Real> frame) const;

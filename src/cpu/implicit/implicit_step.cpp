@@ -455,25 +455,21 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
     return true;
 }
 
-// Where a solver wants nodes beside the paths that pairs were found for, or the guard moves them there, pairs
+// Where a solver wants nodes beyond the paths that pairs were found for, or the guard moves them there, pairs
 // of the new paths are found: those that may cross, since none of them is to press any more.
 template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
     const Paths<Real> paths{previous.positions, ends_, slacks_, static_cast<Real>(tuning::kLeastOfReach)};
-    const auto list_anew = [&](std::span<const std::uint32_t> strays) {
-        // In any case: update() lists what is lost, too.
-        const bool has_lost = contacts_ && pairs_.find_lost(current.positions);
-        if (!contacts_ || (strays.empty() && !has_lost)) return false;
-        for (const std::uint32_t n : strays) ends_[n] = current.positions[n];
-        pairs_.update(paths, strays);
-        return true;
-    };
-    list_anew(guard_.strays(paths, current.positions));
+    bool has_changed = false;
+    std::size_t checked = 0;
     for (int k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
-            guard_.run(paths, pairs_.pairs(), compliances_, current.positions);
-        if (!guard_.has_changed()) return k > 0;
-        if (!list_anew(strays)) return true;
+            guard_.run(paths, pairs_.pairs(), compliances_, current.positions, checked);
+        const bool has_lost = pairs_.find_lost(current.positions);
+        has_changed = has_changed || guard_.has_changed();
+        if (!contacts_ || (strays.empty() && !has_lost)) return has_changed;
+        for (const std::uint32_t n : strays) ends_[n] = current.positions[n];
+        checked = pairs_.update(paths, strays);
     }
     for_each_index(ends_.size(), [&](std::size_t n) {  // nothing moves
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
