@@ -50,9 +50,9 @@ struct StartSums {       // 48 bytes
     vec4  momentum;      // [kg m/s]; w: mass [kg]
     vec4  carried;       // of held nodes alone
     float held_count;
-    float longest;       // displacement without forces [m]
     float unused_0;
     float unused_1;
+    float unused_2;
 };
 // The contacts with planes of a chunk of nodes.
 struct ChunkRows {       // 16 bytes

@@ -154,7 +154,7 @@ TEST_F(LayoutsTest, StepState) {
            FIELD(PlaneMemory, unused_0), FIELD(PlaneMemory, unused_1)});
     check("step_state.glsl", "StartSums", sizeof(StartSums),
           {FIELD(StartSums, momentum), FIELD(StartSums, carried), FIELD(StartSums, held_count),
-           FIELD(StartSums, longest), FIELD(StartSums, unused_0), FIELD(StartSums, unused_1)});
+           FIELD(StartSums, unused_0), FIELD(StartSums, unused_1), FIELD(StartSums, unused_2)});
     check("step_state.glsl", "ChunkRows", sizeof(ChunkRows),
           {FIELD(ChunkRows, count), FIELD(ChunkRows, first), FIELD(ChunkRows, nearest),
            FIELD(ChunkRows, deepest)});

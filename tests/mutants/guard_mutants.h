@@ -68,7 +68,7 @@ inline constexpr Mutant kPairGuardMutants[] = {
     {"paths_stay", "sim/implicit/guard_end.comp", "path_ends[n].xyz = end.xyz;", ""},
     {"strays_are_not_guarded", "sim/implicit/guard_end.comp",
      "path_ends[n].xyz = end.xyz;\n    guard[0].needs_again = 1u;", "path_ends[n].xyz = end.xyz;"},
-    {"paths_have_no_slack", "sim/implicit/guard_end.comp", "<= texelFetch(slacks, int(object)).x", "<= 0.0"},
+    {"paths_have_no_slack", "sim/implicit/guard_end.comp", "<= slack", "<= 0.0"},
     {"what_is_lost_is_not_guarded", "sim/implicit/guard_decide.comp", "|| counts[0].has_lost != 0u", ""},
     {"full_lists_are_enough", "sim/implicit/guard_decide.comp", "counts[0].is_full != 0u", "false"},
     {"passes_are_not_counted", "sim/implicit/guard_decide.comp", "now.guards + 1u", "1u"},

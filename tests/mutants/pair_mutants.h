@@ -6,11 +6,9 @@ namespace gelatin::test {
 
 /// Pairs of surfaces that may come near each other in a part of an implicit step.
 inline constexpr Mutant kFindPairsMutants[] = {
-    {"slack_without_motion", "sim/implicit/find_paths.comp", "+ kSlackOfMotion * min", "+ 0.0 * min"},
     {"paths_are_always_new", "sim/implicit/find_paths.comp", "clock[0].guards == 0u", "true"},
     {"means_of_wrong_counts", "sim/implicit/find_paths.comp", "max(nodes.y - nodes.x, 1u)", "nodes.y"},
-    {"boxes_have_no_slack", "sim/implicit/path_boxes.glsl", "slack_of(object) + thickness_of(object)",
-     "thickness_of(object)"},
+    {"boxes_have_no_slack", "sim/implicit/path_boxes.glsl", "(1.0 + kPathSlack) *", "1.0 *"},
     {"boxes_forget_the_end", "sim/implicit/path_boxes.glsl", "to = path_end(node)", "to = position(node)"},
     {"bounds_do_not_move", "sim/implicit/path_trees.glsl",
      "swept(tree_bounds(root_of(object)), motion_of(object))", "tree_bounds(root_of(object))"},

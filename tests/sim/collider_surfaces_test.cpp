@@ -61,10 +61,11 @@ TEST(ColliderSurfacesInASimulator, AreNoObjectsOfTheScene) {
     const HostFrame frame = simulator.read_frame();
     const std::uint32_t plate = model.objects[2].nodes.first;
     EXPECT_NEAR(frame.positions[3 * plate + 1], model.positions[plate].y - 0.5f, 1e-5f);
-    // VTU has the nodes of bodies, and their forces.
+    // VTU has their surfaces where they are, beside the tets of bodies.
     ASSERT_EQ(frame.contact_forces.size(), frame.positions.size());
     const ExportTopology topology = make_export_topology(model);
-    EXPECT_EQ(topology.node_count, model.body_node_count());
+    EXPECT_EQ(topology.node_count, model.body_node_count() + 8 + 8);
+    EXPECT_EQ(topology.cell_count, model.tets.size() + 12 + 12);
     EXPECT_THAT(vtu_text(topology, frame), HasSubstr("Name=\"contact_force\""));
     EXPECT_THAT(vtu_text(topology, frame), HasSubstr("Name=\"contact_friction\""));
     EXPECT_TRUE(frame.holding_forces.empty()) << "the plate moves, but no body is held";

@@ -75,6 +75,23 @@ TEST(Attachments, CarryWhatHangsOnThem) {
     EXPECT_EQ(run.overlaps(), 0u);
 }
 
+// Stiff ties to what never moves neither keep bodies trembling nor take what they swing with.
+TEST(Attachments, WhatHangsComesToRestByItsDampersAlone) {
+    MeasuredRun damped(hanging_row());
+    damped.advance(4.0);
+    for (std::size_t object = 0; object < 3; ++object) EXPECT_LT(damped.fastest(object), 1e-5) << object;
+    Scene scene = hanging_row();
+    scene.materials[0].damping = 0.0;
+    MeasuredRun free(scene);
+    double early = 0.0, late = 0.0;
+    for (int k = 0; k < 240; ++k) {
+        free.advance(1.0 / 60.0);
+        double& most = k < 60 ? early : late;
+        if (k < 60 || k >= 180) most = std::max(most, free.statistics().kinetic_energy);
+    }
+    EXPECT_GT(late, 0.2 * early);
+}
+
 // Parts that are glued together bend as one that was never cut.
 TEST(Attachments, HalvesOfABeamBendAsTheWhole) {
     const auto tip_of = [](bool is_cut) {

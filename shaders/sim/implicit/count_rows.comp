@@ -6,25 +6,15 @@ const uint kLanes = 64u;
 #include "sim/implicit/plane_contacts.glsl"
 layout(local_size_x = 64) in;
 
-uniform samplerBuffer part_sums;  // StartSums of chunks, three texels each
 layout(std430) writeonly buffer PlaneNotes { PlaneMemory plane_notes[]; };  // reach: 0 where there is no contact
 layout(std430) writeonly buffer RowsOfChunks { ChunkRows chunk_rows[]; };
-
-// How far nodes may go beside where they are expected [m].
-float find_slack(uint object, float thickness) {
-    float longest = 0.0;
-    uint end = texelFetch(chunk_starts, int(object) + 1).x;
-    for (uint c = texelFetch(chunk_starts, int(object)).x + gl_LocalInvocationID.x; c < end; c += kLanes)
-        longest = max(longest, texelFetch(part_sums, 3 * int(c) + 2).y);
-    return kSlackOfThickness * thickness + kSlackOfMotion * min(max_over_group(longest), kFastest * thickness);
-}
 
 void main() {
     uint chunk_number = group_index(), lane = gl_LocalInvocationID.x;
     if (chunk_number >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(chunk_number));
     if (chunk.x >= body_count) return;
-    float thickness = texelFetch(thicknesses, int(chunk.x)).x, slack = find_slack(chunk.x, thickness);
+    float thickness = texelFetch(thicknesses, int(chunk.x)).x;
     float step = clock[0].step, last_step = clock[0].last_step, count = 0.0, nearest = 1.0, deepest = 0.0;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += kLanes) {
         vec4 expected = texelFetch(predicted, int(n));
@@ -36,8 +26,8 @@ void main() {
                 note.ease = memory.ease * max(0.0, 1.0 - step / kPushing);
             else if (surface.w <= 0.0)
                 note.ease = kLeastReach * thickness - surface.w;
-            float gap = surface.w + note.ease, there = gap + dot(surface.xyz, expected.xyz);
-            if (expected.w > 0.0 && min(gap, there) <= thickness + slack) {
+            float motion = dot(surface.xyz, expected.xyz), gap = surface.w + note.ease, there = gap + motion;
+            if (expected.w > 0.0 && surface.w + min(0.0, motion) <= (1.0 + kPathSlack) * thickness) {
                 note.reach = thickness;
                 if (is_known) {
                     float reach = known_reach(memory, thickness, gap);

@@ -1,9 +1,7 @@
-// The paths of nodes where a part begins, and by object how far nodes may end from them, their mean, and how far one goes beside it in
-// reaches. The guard may have given paths other ends: then they stay. A work group an object.
+// The paths of nodes where a part begins, and by object their mean, and how far one goes beside it in reaches. The guard may have given paths other ends: then they stay. A work group an object.
 // CPU twins: gelatin::cpu::ImplicitStep::detect, gelatin::cpu::FindPairs::begin. Parity: tests/gpu/implicit/find_pairs_test.cpp.
 const uint kLanes = 256u;
 #include "include/global_index.glsl"
-#include "layouts/contact_tuning.glsl"
 #include "sim/implicit/clock.glsl"
 #include "sim/implicit/group_sums.glsl"
 #include "sim/implicit/part_choices.glsl"
@@ -20,7 +18,6 @@ uniform uint body_count;
 uniform uint finds_own;  // 1: bodies meet themselves
 uniform uint follows;    // 1: nodes go as predicted
 layout(std430) buffer PathEnds { vec4 path_ends[]; };
-layout(std430) writeonly buffer Slacks { float slacks[]; };
 layout(std430) writeonly buffer Motions { vec4 motions[]; };
 layout(std430) writeonly buffer Speeds { float speeds[]; };  // by object [reaches]
 
@@ -30,26 +27,22 @@ void main() {
     uvec2 nodes = texelFetch(object_nodes, int(o)).xy;
     // What is calm is carried by what it touches.
     bool is_new = clock[0].guards == 0u, is_carried = follows == 0u && texelFetch(paces, 5 * int(o)).x != kMoving;
-    float longest = 0.0, thickness = texelFetch(thicknesses, int(o)).x;
     vec3 sum = vec3(0.0);
     for (uint n = nodes.x + lane; n < nodes.y; n += kLanes) {
         vec4 x = texelFetch(positions, int(n));
         if (is_new) {
             vec3 d = texelFetch(predicted, int(n)).xyz;
-            longest = max(longest, length(d));
             if (is_carried) d = clock[0].step * texelFetch(velocities, int(n)).xyz;
             path_ends[n] = vec4(x.xyz + d, x.w);
         }
         sum += path_ends[n].xyz - x.xyz;
     }
-    longest = max_over_group(longest);
     vec3 motion = sum_over_group(vec4(sum, 0.0)).xyz / float(max(nodes.y - nodes.x, 1u));
     float farthest = 0.0;
     for (uint n = nodes.x + lane; n < nodes.y; n += kLanes)
         farthest = max(farthest, distance(path_ends[n].xyz - texelFetch(positions, int(n)).xyz, motion));
     farthest = max_over_group(farthest);
     if (lane != 0u) return;
-    if (is_new) slacks[o] = kSlackOfThickness * thickness + kSlackOfMotion * min(longest, kFastest * thickness);
     motions[o] = vec4(motion, 0.0);
-    speeds[o] = finds_own != 0u && o < body_count ? farthest / (2.0 * thickness) : 0.0;
+    speeds[o] = finds_own != 0u && o < body_count ? farthest / (2.0 * texelFetch(thicknesses, int(o)).x) : 0.0;
 }

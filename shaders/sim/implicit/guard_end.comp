@@ -4,7 +4,7 @@
 #include "sim/implicit/guarded_pairs.glsl"
 layout(local_size_x = 64) in;
 
-uniform samplerBuffer slacks;  // of objects [m]
+uniform samplerBuffer thicknesses;  // of objects [m]
 layout(std430) readonly buffer Marks { uint object_marks[]; };
 layout(std430) buffer EndPositions { vec4 end_positions[]; };
 layout(std430) buffer PathEnds { vec4 path_ends[]; };
@@ -24,7 +24,8 @@ void main() {
         if ((marks & kHasBlocked) != 0u) guard[0].needs_again = 1u;
     }
     bool is_on_surface = (texelFetch(node_objects, int(n)).x & 1u) != 0u;
-    if (!is_on_surface || distance(end.xyz, path_ends[n].xyz) <= texelFetch(slacks, int(object)).x) return;
+    float slack = kPathSlack * texelFetch(thicknesses, int(object)).x;
+    if (!is_on_surface || distance(end.xyz, path_ends[n].xyz) <= slack) return;
     path_ends[n].xyz = end.xyz;
     guard[0].needs_again = 1u;
 }

@@ -1,18 +1,17 @@
 // Boxes round what nodes do in a part, relative to the motion of their object: two meet that are nearer than both slacks and the
 // reach. CPU twin: gelatin::cpu::FindPairs.
+#include "layouts/contact_tuning.glsl"
 #include "sim/collision/bounds.glsl"
 #include "sim/collision/rounding.glsl"
 
 uniform samplerBuffer positions;  // where nodes begin, xyz [m]
 uniform samplerBuffer path_ends;  // xyz [m]
-uniform samplerBuffer slacks;       // by object [m]
 uniform samplerBuffer thicknesses;  // by object [m]
 uniform samplerBuffer motions;      // by object [m]
 
 vec3 position(uint node) { return texelFetch(positions, int(node)).xyz; }
 vec3 path_end(uint node) { return texelFetch(path_ends, int(node)).xyz; }
 vec3 motion_of(uint object) { return texelFetch(motions, int(object)).xyz; }
-float slack_of(uint object) { return texelFetch(slacks, int(object)).x; }
 float thickness_of(uint object) { return texelFetch(thicknesses, int(object)).x; }
 
 Bounds joined(Bounds a, Bounds b) { return Bounds(min(a.min, b.min), max(a.max, b.max)); }
@@ -24,7 +23,7 @@ struct Frame {
     float width;  // of the margin [m]
 };
 Frame frame_of(uint object) {
-    return Frame(motion_of(object), (slack_of(object) + thickness_of(object)) * (1.0 + 8.0 * kEpsilon));
+    return Frame(motion_of(object), (1.0 + kPathSlack) * thickness_of(object) * (1.0 + 8.0 * kEpsilon));
 }
 
 // As gelatin::cpu::BoxMargin.

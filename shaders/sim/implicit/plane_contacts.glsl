@@ -1,4 +1,4 @@
-// Nodes near colliders. How much the nodes of a chunk's object may go beside where they are expected, for its work group of kLanes.
+// Nodes near colliders.
 // CPU twin: gelatin::cpu::ContactRows.
 #include "sim/collision/colliders.glsl"
 #include "sim/implicit/group_sums.glsl"

@@ -20,7 +20,7 @@ void main() {
     uint c = group_index(), lane = gl_LocalInvocationID.x;
     if (c >= chunk_count) return;
     uvec4 chunk = texelFetch(chunks, int(c));
-    float step = clock[0].step, left = clock[0].left, least = max(step, kFrame), longest = 0.0;
+    float step = clock[0].step, left = clock[0].left, least = max(step, kFrame);
     StartSums own = StartSums(vec4(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0);
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += kLanes) {
         vec4 x = texelFetch(positions, int(n)), v = velocities[n];
@@ -41,9 +41,8 @@ void main() {
         own.momentum += momentum;
         if (is_held) own.carried += momentum;
         if (is_held) own.held_count += 1.0;
-        longest = max(longest, length(d));
     }
     StartSums sums = StartSums(sum_over_group(own.momentum), sum_over_group(own.carried), sum_over_group(own.held_count),
-                               max_over_group(longest), 0.0, 0.0);
+                               0.0, 0.0, 0.0);
     if (lane == 0u) part_sums[c] = sums;
 }

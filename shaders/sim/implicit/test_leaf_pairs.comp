@@ -182,7 +182,7 @@ uint test_element(LeafPair pair, Element element, uint first) {
                             may_meet(pair, element, element.first + k, feature_nodes[first + k]);
         candidates |= uint(is_candidate) << k;
     }
-    float wanted = reach_of(pair) + slack_of(pair.object) + slack_of(pair.other);
+    float wanted = (1.0 + kPathSlack) * reach_of(pair);
     for (; candidates != 0u; candidates &= candidates - 1u) {
         uint k = uint(findLSB(candidates));
         uvec3 nodes = feature_nodes[first + k];

@@ -68,11 +68,15 @@ PairWeight weigh(NearPair near) {
     if (!(weight > 0.0) || !(compliance > 0.0)) return none;
     float stiffness = weight * touch_of(near).y * 4.0 / compliance, reach = near.reach, known_reach = 0.0;
     // Parts of a body that are near each other at rest do not press there.
-    if (near.object == near.other) reach = min(reach, kOfRestGap * rest_gap(near));
+    float there = expected_gap(near), rest_reach = near.object == near.other ? kOfRestGap * rest_gap(near) : reach;
+    if (rest_reach < reach) {
+        reach = rest_reach;
+        if (min(gap, there) > kIdleGap * reach) return none;
+    }
     uint memory = find_memory(near);
     if (memory != kNone)
         known_reach = max(uintBitsToFloat(texelFetch(known_rows, 2 * int(memory) + 1).x), min(reach, gap));
-    return PairWeight(stiffness, reach, known_reach, expected_gap(near), memory, 0u, 0u, 0u);
+    return PairWeight(stiffness, reach, known_reach, there, memory, 0u, 0u, 0u);
 }
 
 void main() {

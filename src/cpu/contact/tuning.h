@@ -45,6 +45,9 @@ inline constexpr double kLeastReach = 1e-3, kEasing = 1.0 / 3.0;
 inline constexpr double kPushing = 0.1;
 /// Parts of one body press from this part of their distance at rest on, if that is less than the reach.
 inline constexpr double kOfRestGap = 0.5;
+/// And have no row with a gap of more than so many of these reaches, at the start and as expected: at rest
+/// they are two apart.
+inline constexpr double kIdleGap = 1.5;
 /// Ties of attachments are so many times as stiff as what they tie together.
 inline constexpr double kTied = 300.0;
 /// And those of rigid bodies, which nothing else yields at.
@@ -60,9 +63,9 @@ inline constexpr double kOnEdge = 2e-3;
 
 // Detection.
 
-/// Nodes may end this far from where they are expected: this part of the thickness, and of the longest
-/// displacement, if that is no more than kFastest thicknesses.
-inline constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
+/// Nodes may end this far from where they are expected, in thicknesses of the body's surface. With 0.3 the
+/// guard finds more pairs anew than detection saves; so it does where the slack grows with displacements.
+inline constexpr double kPathSlack = 0.5;
 /// Bodies that are convex at the start and keep this part of all distances do not meet themselves. Nearer
 /// parts would press from half of their distance at rest on, but so far elements resist more than contacts.
 inline constexpr double kKept = 0.1;

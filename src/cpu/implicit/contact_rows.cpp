@@ -103,9 +103,13 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         // Parts of a body that are near each other at rest do not press there, nor bodies that are attached.
         const std::vector<glm::vec4>* at_rest =
             pair.is_own() ? &model_->positions : attachments.positions_when_tied(pair);
-        if (at_rest != nullptr) {
-            row.reach = std::min(row.reach, static_cast<Real>(tuning::kOfRestGap) * gap_in(*at_rest, pair));
-            if (!(row.reach > Real(0))) continue;  // they overlapped
+        const Real rest_reach =
+            at_rest == nullptr ? row.reach : static_cast<Real>(tuning::kOfRestGap) * gap_in(*at_rest, pair);
+        if (rest_reach < row.reach) {
+            row.reach = rest_reach;
+            const Real there = row.gap_at(relative<Real>(row, start.expected));
+            const bool is_idle = std::min(row.gap, there) > static_cast<Real>(tuning::kIdleGap) * row.reach;
+            if (is_idle || !(row.reach > Real(0))) continue;  // 0: they overlapped
         }
         row.friction = static_cast<Real>(touch.friction);
         row.key = pair.is_edges() ? std::uint64_t(1) << 63 | std::uint64_t(pair.first) << 31 | pair.second
@@ -117,17 +121,15 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
             if (start.compliances[n] == Real(0) || attachments.is_tied_to_plane(n, c)) continue;
             const SurfaceDistance<Real> to = surface_distance(collider, Vec3<Real>(start.positions[n]));
-            // Of pairs, only those are listed that may come as near.
-            const std::uint32_t object = object_of_[n];
-            const auto reach = static_cast<Real>(surface_->thicknesses[object]);
+            const auto reach = static_cast<Real>(surface_->thicknesses[object_of_[n]]);
             const Real nearest = to.distance + std::min(Real(0), glm::dot(to.normal, start.expected[n]));
-            if (nearest > reach + start.slacks[object]) continue;
+            if (nearest > static_cast<Real>(1.0 + tuning::kPathSlack) * reach) continue;  // as of pairs
             ContactRow<Real> row;
             row.nodes[0] = n;
             row.weights[0] = Real(1);
             row.count = 1;
             row.object = kNoNode;
-            row.other = object;
+            row.other = object_of_[n];
             row.normal = to.normal;
             row.gap = to.distance;
             row.reach = reach;

@@ -26,7 +26,6 @@ public:
         std::span<const Vec4<Real>> positions;  ///< [m]
         std::span<const Vec3<Real>> expected;   ///< displacements without forces of elements and contacts [m]
         std::span<const Real> compliances;  ///< 1 / h of contacts, 0 for held nodes [m/N]; all shape [nodes]
-        std::span<const Real> slacks;       ///< of paths, by object [m]
         Real step, last_step;               ///< lengths [s]
     };
 

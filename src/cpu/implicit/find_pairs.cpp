@@ -7,7 +7,6 @@
 
 #include "cpu/collision/walk_tree.h"
 #include "cpu/contact/nearest_pairs.h"
-#include "cpu/contact/tuning.h"
 #include "model/corners.h"
 #include "model/for_each_index.h"
 
@@ -74,8 +73,7 @@ void FindPairs<Real>::update_boxes(std::size_t object, const Paths<Real>& paths)
     const Vec3<Real>& frame = motions_[object];
     const SurfaceParts& parts = model_->surface_parts;
     const auto margin = BoxMargin<Real>::for_distance(
-        2.0 * (static_cast<double>(paths.slacks[object]) +
-               static_cast<double>(paths.nearness) * surface_->thicknesses[object]));
+        2.0 * static_cast<double>(paths.nearness + paths.slack) * surface_->thicknesses[object]);
     const Range& faces = model_->objects[object].faces;
     const glm::uvec2 first = parts.face_starts[faces.first], end = parts.face_starts[faces.end()];
     for_each_index(Range{first.x, end.x - first.x}, [&](std::uint32_t s) {
@@ -411,9 +409,9 @@ void FindPairs<Real>::keep_near(const Paths<Real>& paths, std::span<const Contac
     for_measured<Real>(
         candidates, paths.from, [&](std::size_t p, const MeasuredPairs<Real>& measured, std::size_t c) {
             const ContactPair& pair = candidates[p];
-            const Real near =
-                std::max(paths.nearness * static_cast<Real>(pair.reach), Real(2) * measured.rounding[c]);
-            const Real wanted = near + paths.slacks[pair.object] + paths.slacks[pair.other];
+            const auto reach = static_cast<Real>(pair.reach);
+            const Real wanted =
+                std::max(paths.nearness * reach, Real(2) * measured.rounding[c]) + paths.slack * reach;
             const Real gap = measured.gaps[c];
             Vec3<Real> normal(measured.apart[0][c], measured.apart[1][c], measured.apart[2][c]);
             if (gap > Real(0)) normal /= gap;

@@ -13,6 +13,7 @@
 #include "cpu/collision/object_tree.h"
 #include "cpu/contact/contact_pair.h"
 #include "cpu/contact/kept_distances.h"
+#include "cpu/contact/tuning.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"
 #include "model/drive/attachment.h"
@@ -47,12 +48,12 @@ Real separation(const ContactPair& pair, const Vec3<Real>& direction, std::span<
     return bottom - top;
 }
 
-/// Where the nodes of a step may go: each goes straight to within `slack` of where it is expected.
+/// Where the nodes of a step may go: each goes straight to within a slack of where it is expected.
 template <class Real>
 struct Paths {
-    std::span<const Vec4<Real>> from, to;  ///< xyz [m], shape [nodes]
-    std::span<const Real> slacks;          ///< [m], shape [objects]
-    Real nearness = 1;                     ///< within which part of their reach pairs are wanted
+    std::span<const Vec4<Real>> from, to;            ///< xyz [m], shape [nodes]
+    Real nearness = 1;                               ///< within which part of their reach pairs are wanted
+    Real slack = static_cast<Real>(tuning::kPathSlack);  ///< [thicknesses of the object]
 };
 
 /// Lists all pairs of surface nodes and faces, and of surface edges, that may come as near as their paths say

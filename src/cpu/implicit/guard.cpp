@@ -355,9 +355,10 @@ std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<
         }
     }
     std::vector<std::uint32_t> strays;
-    for (const std::uint32_t n : model_->surface_parts.nodes)
-        if (!(glm::distance(Vec3<Real>(ends[n]), Vec3<Real>(paths.to[n])) <= paths.slacks[object_of_[n]]))
-            strays.push_back(n);
+    for (const std::uint32_t n : model_->surface_parts.nodes) {
+        const Real slack = paths.slack * static_cast<Real>(surface_->thicknesses[object_of_[n]]);
+        if (!(glm::distance(Vec3<Real>(ends[n]), Vec3<Real>(paths.to[n])) <= slack)) strays.push_back(n);
+    }
     return strays;
 }
 

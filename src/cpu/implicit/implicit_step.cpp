@@ -120,7 +120,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             predict(input, previous);
             const bool is_found = damps || detect(previous, is_shortest);
             if (is_found) {
-                rows_.make({previous.positions, expected_, compliances_, slacks_, step_, scheme_.last_step()},
+                rows_.make({previous.positions, expected_, compliances_, step_, scheme_.last_step()},
                            pairs_.pairs(), attachments_, system_.rows);
                 attachments_.add({previous.positions, expected_, compliances_, asleep_, input.motors, step_},
                                  system_.rows);
@@ -421,19 +421,8 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
 // left to shorter steps.
 template <class Real>
 bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest, bool own) {
-    slacks_.resize(model_->objects.size());
-    for_each_index(0, slacks_.size(), 1, [&](std::size_t o) {
-        const Range& nodes = model_->objects[o].nodes;
-        Real squared = 0;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            squared = std::max(squared, glm::dot(expected_[n], expected_[n]));
-        const auto thickness = static_cast<Real>(surface_->thicknesses[o]);
-        slacks_[o] = static_cast<Real>(tuning::kSlackOfThickness) * thickness +
-                     static_cast<Real>(tuning::kSlackOfMotion) *
-                         std::min(std::sqrt(squared), static_cast<Real>(tuning::kFastest) * thickness);
-    });
     if (!contacts_) return true;
-    const Paths<Real> paths{previous.positions, ends_, slacks_};
+    const Paths<Real> paths{previous.positions, ends_};
     pairs_.begin(paths, own, asleep_);
     if (!is_shortest && pairs_.fastest_approach(paths) > static_cast<Real>(tuning::kFastest)) return false;
     pairs_.run(paths);
@@ -459,7 +448,7 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
 // of the new paths are found: those that may cross, since none of them is to press any more.
 template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
-    const Paths<Real> paths{previous.positions, ends_, slacks_, static_cast<Real>(tuning::kLeastOfReach)};
+    const Paths<Real> paths{previous.positions, ends_, static_cast<Real>(tuning::kLeastOfReach)};
     bool has_changed = false;
     std::size_t checked = 0;
     for (int k = 0; k < tuning::kMostGuards; ++k) {

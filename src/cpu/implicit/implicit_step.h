@@ -152,7 +152,6 @@ private:
     std::vector<Real> compliances_;              // of nodes in contacts, 1 / h_i [m/N]
     Field expected_;                             // displacements without forces [m]
     std::vector<Vec4<Real>> ends_, velocities_;  // velocities: with damping times of this step
-    std::vector<Real> slacks_;                   // by object [m]
     std::vector<Acting> acting_;
 };
 

@@ -33,12 +33,15 @@ IslandSolve<Real>::IslandSolve(StepSystem<Real>& system, std::span<const std::ui
     : system_(system),
       bodies_(bodies.begin(), bodies.end()),
       nodes_(nodes_of(*system.model_, bodies)),
+      first_row_(rows.first),
       rows_{std::span(system.rows).subspan(rows.first, rows.count),
             std::span(system.tangents_).subspan(rows.first, rows.count),
             std::span(system.row_forces_).subspan(rows.first, rows.count),
             std::span(system.slips_).subspan(rows.first, rows.count)},
       rigid_(*system.model_, system.rigid, free_ones(system.rigid, bodies), rows_, pairs) {
     for (const std::uint32_t o : bodies) places_.push_back(rigid_.place_of(o));
+    for (std::uint32_t r = rows.first; r < rows.end(); ++r)
+        has_glued_ = has_glued_ || system.glued_.node_of(r) != kNoNode;
 }
 
 // What rows add to the forces on a node.
@@ -58,19 +61,37 @@ void IslandSolve<Real>::find_slips() {
                    [&](std::size_t r) { rows_.slips[r] = slip<Real>(rows_.rows[r], system_.displacements); });
 }
 
+// Of A on its diagonal, but for what glues the node.
+template <class Real>
+SymmetricMatrix<Real> IslandSolve<Real>::block_of(std::uint32_t node) const {
+    SymmetricMatrix<Real> block = system_.elastic.diagonal()[node];
+    block.add_identity(system_.inertia[node]);
+    for (std::uint32_t e = system_.row_starts_[node]; e < system_.row_starts_[node + 1]; ++e) {
+        const auto [row, place] = system_.row_entries_[e];
+        if (row == system_.glued_.row_of(node)) continue;
+        const Real weight = system_.rows[row].weights[place];
+        const SymmetricMatrix<Real>& stiffness = tangents_[row - first_row_].stiffness;
+        block.diagonal += weight * weight * stiffness.diagonal;
+        block.beside += weight * weight * stiffness.beside;
+    }
+    return block;
+}
+
 template <class Real>
 void IslandSolve<Real>::prepare_preconditioner(bool only_rows) {
+    const GluedNodes<Real>& glued = system_.glued_;
+    tangents_.assign(rows_.tangents.begin(), rows_.tangents.end());
+    // What moves leaders moves what is glued to them.
+    for (std::size_t r = 0; r < rows_.count(); ++r)
+        if (const std::uint32_t n = glued.node_of(first_row_ + r); n != kNoNode)
+            tangents_[r].stiffness = block_of(n);
     const auto find_block = [&](std::uint32_t n) {
         const bool has_rows = system_.row_starts_[n] < system_.row_starts_[n + 1];
         if (system_.inertia[n] == Real(0) || (only_rows && !has_rows)) return;
-        SymmetricMatrix<Real> block = system_.elastic.diagonal()[n];
-        block.add_identity(system_.inertia[n]);
-        for (std::uint32_t e = system_.row_starts_[n]; e < system_.row_starts_[n + 1]; ++e) {
-            const auto [row, place] = system_.row_entries_[e];
-            const Real weight = system_.rows[row].weights[place];
-            const SymmetricMatrix<Real>& stiffness = system_.tangents_[row].stiffness;
-            block.diagonal += weight * weight * stiffness.diagonal;
-            block.beside += weight * weight * stiffness.beside;
+        SymmetricMatrix<Real> block = block_of(n);
+        if (const std::uint32_t row = glued.row_of(n); row != kNoNode) {
+            block.diagonal += system_.tangents_[row].stiffness.diagonal;
+            block.beside += system_.tangents_[row].stiffness.beside;
         }
         system_.inverse_blocks_[n] = inverse_of(block);
     };
@@ -80,7 +101,7 @@ void IslandSolve<Real>::prepare_preconditioner(bool only_rows) {
         if (system_.model_->objects[bodies_[piece.object]].is_rigid) return;
         for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) find_block(n);
     });
-    rigid_.find_matrix();
+    rigid_.find_matrix(tangents_);
 }
 
 // use(node, displacement [m]) for all nodes; 0 for bodies that are not free.
@@ -99,6 +120,41 @@ void IslandSolve<Real>::for_displacements(std::span<const Motion> motions, const
     });
 }
 
+// The residual, as a force on all that a node takes along.
+template <class Real>
+Vec3<Real> IslandSolve<Real>::with_glued(std::uint32_t node) const {
+    Vec3<Real> r = system_.residual_[node];
+    for (std::uint32_t e = system_.row_starts_[node]; e < system_.row_starts_[node + 1]; ++e) {
+        const auto [row, place] = system_.row_entries_[e];
+        const std::uint32_t glued = system_.glued_.node_of(row);
+        if (glued != kNoNode && glued != node)
+            r -= system_.rows[row].weights[place] * system_.residual_[glued];
+    }
+    return r;
+}
+
+// Adds to z what leaders take glued nodes along by, in place of the rigid motion of these nodes' own body.
+template <class Real>
+void IslandSolve<Real>::move_glued() {
+    const auto by_body = [&](std::uint32_t object, std::uint32_t n) {
+        const std::uint32_t b = rigid_.place_of(object);
+        if (b == kNoNode) return Vec3<Real>(0);
+        const Motion& m = rigid_z_[b];
+        return Vec3<Real>(m(0), m(1), m(2)) + glm::cross(Vec3<Real>(m(3), m(4), m(5)), system_.rigid.arm(n));
+    };
+    for_each_index(rows_.count(), [&](std::size_t r) {
+        const std::uint32_t n = system_.glued_.node_of(first_row_ + r);
+        if (n == kNoNode) return;
+        const ContactRow<Real>& row = rows_.rows[r];
+        Vec3<Real> z = system_.z_[n] - by_body(row.other, n);
+        for (std::uint32_t k = 1; k < row.count; ++k) {
+            const std::uint32_t j = row.nodes[k];
+            if (system_.inertia[j] > Real(0)) z -= row.weights[k] * (system_.z_[j] + by_body(row.object, j));
+        }
+        system_.z_[n] = z;
+    });
+}
+
 // z = M^-1 r: z_ by nodes' blocks, and the rigid level. update(n): of free nodes, what residual_ becomes.
 // @param is_enough output: whether no body may lack more of its least energy than it should @return r . z
 template <class Real>
@@ -108,16 +164,22 @@ double IslandSolve<Real>::precondition(const Update& update, bool& is_enough) {
         double lack = 0.0;  // r . z
         glm::dvec3 force{0.0}, moment{0.0};
     };
+    if (has_glued_)  // before any of them is gathered
+        nodes_.for_each([&](std::uint32_t n) {
+            if (system_.inertia[n] > Real(0)) system_.residual_[n] = update(n);
+        });
     std::vector<Part> parts(bodies_.size());
     nodes_.for_values(
         [&](const ObjectPieces::Piece& piece) {
             Part part;
             for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) {
                 if (system_.inertia[n] == Real(0)) continue;
-                const Vec3<Real> r = update(n), z = system_.inverse_blocks_[n] * r;
-                system_.residual_[n] = r;
+                if (!has_glued_) system_.residual_[n] = update(n);
+                const Vec3<Real> r = has_glued_ ? with_glued(n) : system_.residual_[n],
+                                 z = system_.inverse_blocks_[n] * r;
                 system_.z_[n] = z;
                 part.lack += static_cast<double>(glm::dot(r, z));
+                if (system_.glued_.row_of(n) != kNoNode) continue;
                 const glm::dvec3 force(r);
                 part.force += force;
                 part.moment += glm::cross(glm::dvec3(system_.rigid.arm(n)), force);
@@ -134,14 +196,21 @@ double IslandSolve<Real>::precondition(const Update& update, bool& is_enough) {
     for (std::size_t k = 0; k < parts.size(); ++k)
         if (places_[k] != kNoNode) forces[places_[k]] = motion(parts[k].force, parts[k].moment);
     rigid_z_.resize(forces.size());
-    for (std::size_t b = 0; b < forces.size(); ++b) rigid_z_[b] = rigid_.precondition(b, forces[b]);
+    if (has_glued_) {
+        rigid_z_ = forces;
+        rigid_.solve(rigid_z_, tuning::kRigidForcing);
+        move_glued();
+    } else {
+        for (std::size_t b = 0; b < forces.size(); ++b) rigid_z_[b] = rigid_.precondition(b, forces[b]);
+    }
     is_enough = true;
     double sum = 0.0;
     for (std::size_t k = 0; k < parts.size(); ++k) {
-        double lack = parts[k].lack;
-        if (places_[k] != kNoNode) lack += forces[places_[k]].dot(rigid_z_[places_[k]]);
+        const std::uint32_t b = places_[k];
+        const double of_rigid = b == kNoNode ? 0.0 : forces[b].dot(rigid_z_[b]);
+        sum += parts[k].lack + of_rigid;
+        const double lack = parts[k].lack + std::max(of_rigid, 0.0);
         is_enough = is_enough && lack <= system_.enough[bodies_[k]];
-        sum += lack;
     }
     return sum;
 }

@@ -13,7 +13,8 @@ namespace gelatin::cpu {
 
 /// The solve of one island of a StepSystem, which has all that is read and written. Newton's method: first on
 /// rigid motions alone (RigidSolve), then on all nodes, with conjugate gradients, then on rigid motions again
-/// until all bodies are in balance. Blocks precondition: those of nodes, and of bodies as rigid ones.
+/// until all bodies are in balance. Blocks precondition: those of nodes, and of bodies as rigid ones, with
+/// what is glued to them (GluedNodes).
 template <class Real>
 class IslandSolve {
 public:
@@ -29,7 +30,10 @@ private:
     Vec3<Real> of_rows(std::uint32_t node) const;
     void find_base_residual();
     void find_slips();
+    SymmetricMatrix<Real> block_of(std::uint32_t node) const;
     void prepare_preconditioner(bool only_rows);
+    Vec3<Real> with_glued(std::uint32_t node) const;
+    void move_glued();
     template <class Update>
     double precondition(const Update& update, bool& is_enough);
     double multiply_direction();
@@ -44,7 +48,10 @@ private:
     std::vector<std::uint32_t> bodies_;  // objects
     std::vector<std::uint32_t> places_;  // of each body among the free ones, or kNoNode
     ObjectPieces nodes_;                 // by body
+    std::uint32_t first_row_;
+    bool has_glued_ = false;
     IslandRows<Real> rows_;
+    std::vector<RowTangent<Real>> tangents_;  // what rows resist leaders of glued nodes with
     RigidSolve<Real> rigid_;
     std::vector<Motion> rigid_z_;  // what z has beside z_, of the rigid level
     SolveCounts counts_;

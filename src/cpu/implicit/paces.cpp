@@ -83,7 +83,7 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
     }
     // Momenta of a pendulum that is nothing but rigid have to go by the scheme of its nodes.
     for (std::size_t i = 0; i < attached.size(); ++i)
-        if (rigid_ties[i] != 0 && islands.are_held[i] != 0) attached[i] = 0;
+        if (islands.are_held[i] != 0) attached[i] = 0;
     scheme.tie(islands.of_bodies, attached);
     for (ContactRow<Real>& row : rows) {
         const std::uint32_t body = model_->is_body(row.other) ? row.other : row.object;

@@ -151,13 +151,13 @@ std::uint32_t RigidSolve<Real>::place_of(std::uint32_t object) const {
 }
 
 template <class Real>
-void RigidSolve<Real>::find_matrix() {
+void RigidSolve<Real>::find_matrix(std::span<const RowTangent<Real>> tangents) {
     for_each_index(0, pairs_.size(), 1, [&](std::size_t p) {
         Pair& pair = pairs_[p];
         pair = {.bodies = pair.bodies, .rows = pair.rows};
         if (pair.bodies[0] == kNoNode && pair.bodies[1] == kNoNode) return;
         for (std::uint32_t r = pair.rows.first; r < pair.rows.end(); ++r) {
-            const SymmetricMatrix<Real>& h = rows_.tangents[r].stiffness;
+            const SymmetricMatrix<Real>& h = tangents[r].stiffness;
             if (!(h.diagonal.x + h.diagonal.y + h.diagonal.z > Real(0))) continue;
             const glm::dmat3 stiffness = matrix_of({glm::dvec3(h.diagonal), glm::dvec3(h.beside)});
             const double whole = rows_.rows[r].is_couple ? 0.0 : 1.0;
@@ -325,7 +325,7 @@ typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base
         }
         rows_.find_tangents();
         find_turning();
-        find_matrix();
+        find_matrix(rows_.tangents);
         solve(step, tuning::kRigidForcing);
         for_each_index(rows_.count(), [&](std::size_t r) { changes[r] = relative(r, step); });
         std::vector<Motion> resistance(count());

@@ -34,8 +34,8 @@ public:
     /// Among the bodies; kNoNode if it is none of them.
     std::uint32_t place_of(std::uint32_t object) const;
 
-    /// E, by the rows' tangents.
-    void find_matrix();
+    /// E. @param tangents of rows
+    void find_matrix(std::span<const RowTangent<Real>> tangents);
     /// E_b^-1 f, with E_b the block of a body on the diagonal of E.
     Motion precondition(std::size_t body, const Motion& force) const { return inverses_[body] * force; }
     /// E^-1. @param motions input: forces; output: motions @param left what may still be lacking of the

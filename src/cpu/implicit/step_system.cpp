@@ -30,6 +30,7 @@ StepSystem<Real>::StepSystem(std::shared_ptr<const Model> model)
       model_(std::move(model)),
       asleep_(model_->body_count()),
       row_starts_(model_->node_count() + 1),
+      glued_(model_),
       inverse_blocks_(model_->node_count()) {
     for (Field* field : {&base_, &residual_, &step_, &product_, &z_}) field->resize(model_->node_count());
 }
@@ -91,6 +92,7 @@ void StepSystem<Real>::index_rows() {
     std::vector<std::uint32_t> next(row_starts_.begin(), row_starts_.end() - 1);
     for (std::uint32_t r = 0; r < rows.size(); ++r)
         for (std::uint32_t k = 0; k < rows[r].count; ++k) row_entries_[next[rows[r].nodes[k]]++] = {r, k};
+    glued_.find(rows, inertia);
     tangents_.resize(rows.size());
     for (Field* values : {&row_forces_, &slips_}) values->resize(rows.size());
 }

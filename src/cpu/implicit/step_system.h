@@ -7,6 +7,7 @@
 
 #include "cpu/implicit/contact_row.h"
 #include "cpu/implicit/elastic_system.h"
+#include "cpu/implicit/glued_nodes.h"
 #include "cpu/implicit/island_rows.h"
 #include "cpu/implicit/rigid_level.h"
 #include "cpu/nodes.h"
@@ -78,6 +79,7 @@ private:
     };
     std::vector<std::uint32_t> row_starts_;
     std::vector<RowEntry> row_entries_;  // by node
+    GluedNodes<Real> glued_;
     std::vector<RowTangent<Real>> tangents_;
     Field row_forces_, slips_;                           // slips: s of rows, by displacements
     std::vector<SymmetricMatrix<Real>> inverse_blocks_;  // of nodes

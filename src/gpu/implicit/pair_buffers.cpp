@@ -14,7 +14,6 @@ PairBuffers::PairBuffers(const Model& model, const PairCapacity& wanted)
     : counts(std::vector<PairCounts>(1)),
       slot_starts(model.objects.size() + 1, gl::TexelFormat::r32ui),
       path_ends(model.positions.size(), gl::TexelFormat::rgba32f),
-      slacks(model.objects.size(), gl::TexelFormat::r32f),
       motions(model.objects.size(), gl::TexelFormat::rgba32f),
       object_count_(static_cast<std::uint32_t>(model.objects.size())) {
     grow(wanted);
@@ -37,7 +36,6 @@ void PairBuffers::bind(const gl::Program& program) const {
     slots.bind(program, "PairSlots", "pair_slots");
     pairs.bind(program, "NearPairs", "near_pairs");
     path_ends.bind(program, "PathEnds", "path_ends");
-    slacks.bind(program, "Slacks", "slacks");
     motions.bind(program, "Motions", "motions");
 }
 

@@ -35,10 +35,9 @@ public:
     StepBuffer<std::uint32_t> slot_starts;  ///< of each object, and the end: SlotStarts, slot_starts
     StepBuffer<PairSlot> slots;             ///< by object and other, ascending: PairSlots, pair_slots
     StepBuffer<NearPair> pairs;             ///< by slot: NearPairs, near_pairs (five texels)
-    /// Where paths of nodes end: each goes straight to within its object's slack of it; xyz [m]; w: 1 / mass,
-    /// 0 of held nodes. By node: PathEnds, path_ends.
+    /// Where paths of nodes end: each goes straight to within a slack of it; xyz [m]; w: 1 / mass, 0 of held
+    /// nodes. By node: PathEnds, path_ends.
     StepBuffer<glm::vec4> path_ends;
-    StepBuffer<float> slacks;       ///< by object [m]: Slacks, slacks
     StepBuffer<glm::vec4> motions;  ///< of objects, the mean of their nodes' paths [m]: Motions, motions
 
 private:

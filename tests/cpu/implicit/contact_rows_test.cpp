@@ -29,8 +29,7 @@ protected:
         std::vector<glm::dvec4> positions(model_->positions.begin(), model_->positions.end());
         for (glm::dvec4& p : positions) p.y = p.y > 0.05 ? 0.3 : p.x < 0.15 ? 0.0001 : height;
         std::vector<cpu::ContactRow<double>> rows;
-        const std::vector<double> slacks(1, 1e-3);
-        rows_of_->make({positions, expected_, compliances_, slacks, kStep, kStep}, {},
+        rows_of_->make({positions, expected_, compliances_, kStep, kStep}, {},
                        cpu::AttachmentRows<double>(model_), rows);
         rows_of_->note(rows, expected_, std::vector<std::uint8_t>(1));
         rows_of_->remember();
@@ -81,14 +80,13 @@ TEST(ContactRows, HeldNodesMakeNoneStiffer) {
     const auto surface = std::make_shared<ContactSurface>(make_contact_surface(*model, {}));
     const std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end());
     const std::vector<glm::dvec3> expected(positions.size(), glm::dvec3(0.0));
-    const std::vector<double> slacks(model->objects.size(), 1e-3);
     cpu::FindPairs<double> pairs(model, surface, false);
-    pairs.begin({positions, positions, slacks});
-    pairs.run({positions, positions, slacks});
+    pairs.begin({positions, positions});
+    pairs.run({positions, positions});
     const auto stiffest = [&](const std::vector<double>& compliances) {
         std::vector<cpu::ContactRow<double>> rows;
         cpu::ContactRows<double>(model, surface)
-            .make({positions, expected, compliances, slacks, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(),
+            .make({positions, expected, compliances, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(),
                   cpu::AttachmentRows<double>(model), rows);
         double most = 0.0;
         for (const auto& row : rows) most = std::max(most, row.stiffness);
@@ -117,16 +115,17 @@ TEST(ContactRowsOfAttachmentsTest, BodiesPressNearTheirTiesFromHalfOfTheirGapOn)
     const double reach = surface->reach(0, 1);
     ASSERT_GT(reach, kGap);
     const std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end());
-    const std::vector<glm::dvec3> expected(positions.size(), glm::dvec3(0.0));
-    const std::vector<double> slacks(model->objects.size(), 1e-3), compliances(positions.size(), 1e-6);
+    std::vector<glm::dvec3> expected(positions.size(), glm::dvec3(0.0));
+    const Range& nodes = model->objects[1].nodes;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) expected[n].y = -0.4 * kGap;
+    const std::vector<double> compliances(positions.size(), 1e-6);
     cpu::FindPairs<double> pairs(model, surface, false);
-    pairs.begin({positions, positions, slacks});
-    pairs.run({positions, positions, slacks});
+    pairs.begin({positions, positions});
+    pairs.run({positions, positions});
     Attachment attachment;
     attachment.object = 1;
     attachment.other = 0;
     attachment.positions = std::make_shared<const std::vector<glm::vec4>>(model->positions);
-    const Range& nodes = model->objects[1].nodes;
     const auto lowest = std::min_element(positions.begin() + nodes.first, positions.end(),
                                          [](const auto& a, const auto& b) { return a.y < b.y; });
     attachment.ties.resize(1);
@@ -139,8 +138,8 @@ TEST(ContactRowsOfAttachmentsTest, BodiesPressNearTheirTiesFromHalfOfTheirGapOn)
         attachments.set({attachment});
         std::vector<cpu::ContactRow<double>> rows;
         cpu::ContactRows<double>(model, surface)
-            .make({positions, expected, compliances, slacks, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(),
-                  attachments, rows);
+            .make({positions, expected, compliances, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(), attachments,
+                  rows);
         std::size_t tied = 0;
         for (const auto& row : rows) {
             const auto end = row.nodes.begin() + row.count;

@@ -31,8 +31,7 @@ protected:
                                  {.place = {0.05, 0.12, 0}, .cells = {2, 2, 2}, .size = glm::dvec3(0.1)}})),
           surface_(std::make_shared<ContactSurface>(make_contact_surface(*model_, {}))),
           from_(model_->positions.begin(), model_->positions.end()),
-          to_(from_),
-          slacks_(model_->objects.size(), 0.001) {
+          to_(from_) {
         for (std::size_t n = 0; n < to_.size(); ++n)
             to_[n] +=
                 glm::dvec4(n < model_->objects[2].nodes.first ? glm::dvec3(0, 0.05, 0) : glm::dvec3(0), 0.0);
@@ -42,8 +41,7 @@ protected:
     // times.
     std::set<Key> near_on_the_way(const std::vector<glm::dvec4>& ends, double part = 1.0) const {
         cpu::FindPairs<double> all(model_, surface_, false);
-        const std::vector<double> wide(model_->objects.size(), 1.0);
-        const cpu::Paths<double> paths{from_, ends, wide};
+        const cpu::Paths<double> paths{from_, ends, 1.0, 1e3};
         all.begin(paths);
         all.run(paths);
         std::set<Key> near;
@@ -75,12 +73,11 @@ protected:
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     std::vector<glm::dvec4> from_, to_;
-    std::vector<double> slacks_;
 };
 
 TEST_F(FindPairsTest, ListsAllThatComeNear) {
     cpu::FindPairs<double> pairs(model_, surface_, false);
-    const cpu::Paths<double> paths{from_, to_, slacks_};
+    const cpu::Paths<double> paths{from_, to_};
     pairs.begin(paths);
     pairs.run(paths);
     const std::set<Key> near = near_on_the_way(to_);
@@ -89,11 +86,10 @@ TEST_F(FindPairsTest, ListsAllThatComeNear) {
 }
 
 TEST_F(FindPairsTest, ListsAsNearAsIsAskedFor) {
-    slacks_.assign(slacks_.size(), 0.0);
     const auto list = [&](double nearness) {
         cpu::FindPairs<double> pairs(model_, surface_, false);
-        pairs.begin({from_, to_, slacks_, nearness});
-        pairs.run({from_, to_, slacks_, nearness});
+        pairs.begin({from_, to_, nearness, 0.0});
+        pairs.run({from_, to_, nearness, 0.0});
         return listed(pairs);
     };
     const std::set<Key> few = list(0.02), all = list(1.0);
@@ -110,7 +106,7 @@ TEST_F(FindPairsTest, ListsPairsOfNodesAnewThatEndElsewhere) {
     bool any_new = false;
     for (int round = 0; round < 10; ++round) {
         std::vector<glm::dvec4> ends = to_;
-        const cpu::Paths<double> paths{from_, ends, slacks_};
+        const cpu::Paths<double> paths{from_, ends};
         pairs.begin(paths);
         pairs.run(paths);
         const std::set<Key> before = listed(pairs);
@@ -132,7 +128,7 @@ TEST_F(FindPairsTest, ListsPairsOfNodesAnewThatEndElsewhere) {
 TEST_F(FindPairsTest, KnowsHowFarBodiesGoBesideEachOther) {
     const auto fastest = [&](bool own) {
         cpu::FindPairs<double> found(model_, surface_, own);
-        const cpu::Paths<double> paths{from_, to_, slacks_};
+        const cpu::Paths<double> paths{from_, to_};
         found.begin(paths);
         return found.fastest_approach(paths);
     };

@@ -19,7 +19,6 @@ protected:
                                     {.place = {0.102, 0, 0}, .cells = {1, 1, 1}, .size = glm::dvec3(0.1)}});
         surface_ = std::make_shared<ContactSurface>(make_contact_surface(*model_, {}));
         from_.assign(model_->positions.begin(), model_->positions.end());
-        slacks_.assign(model_->objects.size(), 0.001);
         compliances_.assign(from_.size(), 1.0);
     }
     // Where nodes go that are to go by these motions of the two blocks [m].
@@ -30,7 +29,7 @@ protected:
         cpu::FindPairs<double> pairs(model_, surface_, false);
         for (int k = 0; k < 10; ++k) {  // nodes that are put beside their paths may meet others there
             const std::vector<glm::dvec4> wanted = ends;
-            const cpu::Paths<double> paths{from_, wanted, slacks_};
+            const cpu::Paths<double> paths{from_, wanted};
             pairs.begin(paths);
             pairs.run(paths);
             if (guard_().run(paths, pairs.pairs(), compliances_, ends).empty()) return ends;
@@ -46,7 +45,7 @@ protected:
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     std::vector<glm::dvec4> from_;
-    std::vector<double> slacks_, compliances_;
+    std::vector<double> compliances_;
     std::unique_ptr<cpu::Guard<double>> made_;
 };
 
@@ -95,7 +94,7 @@ TEST_F(GuardTest, TellsWhichNodesEndElsewhere) {
     std::vector<glm::dvec4> expected = from_, ends = from_;
     for (std::size_t n = 0; n < ends.size(); ++n) expected[n].x += 0.05;
     for (std::size_t n = 0; n < ends.size(); ++n) ends[n].x += n == 3 ? 0.02 : n == 4 ? 0.0495 : 0.05;
-    const cpu::Paths<double> paths{from_, expected, slacks_};
+    const cpu::Paths<double> paths{from_, expected};
     EXPECT_EQ(guard_().run(paths, {}, compliances_, ends), std::vector<std::uint32_t>{3});
 }
 

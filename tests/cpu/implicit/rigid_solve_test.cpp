@@ -80,7 +80,7 @@ TEST_F(RigidSolveTest, SolvesForMotions) {
     std::vector<cpu::Motion> forces(bodies_.count());
     for (cpu::Motion& force : forces)
         for (int k = 0; k < 6; ++k) force(k) = random.uniform(-1.0, 1.0);
-    bodies_.find_matrix();
+    bodies_.find_matrix(tangents_);
     std::vector<cpu::Motion> motions = forces;
     EXPECT_LE(bodies_.solve(motions, 1e-24), 25);  // 18 unknowns, but for rounding
     for (std::size_t r = 0; r < rows_.size(); ++r)

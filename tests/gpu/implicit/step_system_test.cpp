@@ -60,8 +60,8 @@ TEST(ContactTuning, IsThatOfTheCpu) {
     EXPECT_EQ(gpu::kOfRestGap, static_cast<float>(cpu::kOfRestGap));
     EXPECT_EQ(gpu::kSoftened, static_cast<float>(cpu::kSoftened));
     EXPECT_EQ(gpu::kOnEdge, static_cast<float>(cpu::kOnEdge));
-    EXPECT_EQ(gpu::kSlackOfThickness, static_cast<float>(cpu::kSlackOfThickness));
-    EXPECT_EQ(gpu::kSlackOfMotion, static_cast<float>(cpu::kSlackOfMotion));
+    EXPECT_EQ(gpu::kPathSlack, static_cast<float>(cpu::kPathSlack));
+    EXPECT_EQ(gpu::kIdleGap, static_cast<float>(cpu::kIdleGap));
     EXPECT_EQ(gpu::kDeepest, static_cast<float>(cpu::kDeepest));
     EXPECT_EQ(gpu::kFastest, static_cast<float>(cpu::kFastest));
     EXPECT_EQ(gpu::kTolerance, static_cast<float>(cpu::kTolerance));

@@ -31,8 +31,7 @@ EndReference::EndReference(std::shared_ptr<const Model> some_model, double some_
       asleep_(model->body_count()),
       expected_(model->node_count()),
       ends_(model->node_count()),
-      compliances_(model->node_count()),
-      slacks_(model->objects.size()) {}
+      compliances_(model->node_count()) {}
 
 glm::dvec3 EndReference::acceleration(std::size_t n) const {
     const glm::dvec3 gravity(model->gravity);
@@ -50,15 +49,14 @@ void EndReference::find_rows() {
             w > 0.0 ? 1.0 / (1.0 / (w * least * least) + static_cast<double>(surface->stiffness[n]) / 3.0)
                     : 0.0;
     }
-    for (std::size_t o = 0; o < slacks_.size(); ++o) slacks_[o] = surface->thicknesses[o];
     if (contacts_) {
-        const cpu::Paths<double> paths{from.positions, ends_, slacks_};
+        const cpu::Paths<double> paths{from.positions, ends_};
         pairs_.begin(paths, true, asleep_);
         pairs_.run(paths);
     }
     std::span<const cpu::NearPair<double>> near = pairs_.pairs();
     if (is_apart) near = {};
-    rows.make({from.positions, expected_, compliances_, slacks_, h, scheme.last_step()}, near,
+    rows.make({from.positions, expected_, compliances_, h, scheme.last_step()}, near,
               cpu::AttachmentRows<double>(model), system.rows);
     system.rows.insert(system.rows.end(), own_rows.begin(), own_rows.end());
 }
@@ -140,7 +138,7 @@ double EndReference::measure() {
 // Once: what strays from paths is not found.
 void EndReference::run_guard() {
     const std::vector<glm::dvec4> wanted = to.positions;
-    guard.run({from.positions, ends_, slacks_}, pairs_.pairs(), compliances_, to.positions);
+    guard.run({from.positions, ends_}, pairs_.pairs(), compliances_, to.positions);
     is_guarded = !contacts_ && guard.has_changed();
     for (std::size_t n = 0; n < wanted.size(); ++n) {
         if (to.positions[n] == wanted[n]) continue;

@@ -71,7 +71,7 @@ private:
     std::vector<std::uint8_t> asleep_;  // none
     Field expected_, on_held_;
     std::vector<glm::dvec4> ends_;
-    std::vector<double> compliances_, slacks_;
+    std::vector<double> compliances_;
 };
 
 }  // namespace gelatin::test

@@ -22,23 +22,12 @@ namespace tuning = cpu::tuning;
 template <class Real>
 struct GuardedWays {
     std::vector<cpu::Vec4<Real>> from, to;
-    std::vector<Real> slacks, compliances;
+    std::vector<Real> compliances;
 
     explicit GuardedWays(const Wishes& wishes, const ContactSurface& surface)
         : from(converted<Real>(wishes.model->positions)),
           to(converted<Real>(wishes.expected.empty() ? wishes.ends : wishes.expected)),
           compliances(wishes.compliances.begin(), wishes.compliances.end()) {
-        const Model& model = *wishes.model;
-        for (std::size_t o = 0; o < model.objects.size(); ++o) {
-            double longest = 0.0;
-            const Range& nodes = model.objects[o].nodes;
-            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-                longest = std::max(longest, glm::distance(glm::dvec3(from[n]), glm::dvec3(to[n])));
-            const double thickness = surface.thicknesses[o];
-            slacks.push_back(
-                static_cast<Real>(tuning::kSlackOfThickness * thickness +
-                                  tuning::kSlackOfMotion * std::min(longest, tuning::kFastest * thickness)));
-        }
         for (std::size_t n = compliances.size(); n < from.size(); ++n) {
             const double w = static_cast<double>(from[n].w),
                          h = static_cast<double>(surface.stiffness[n]) / 3.0;
@@ -47,7 +36,7 @@ struct GuardedWays {
                         : Real(0));
         }
     }
-    cpu::Paths<Real> paths() const { return {from, to, slacks}; }
+    cpu::Paths<Real> paths() const { return {from, to}; }
 };
 
 template <class T>
@@ -94,13 +83,11 @@ public:
         state_.predicted.values.upload(predicted);
         state_.to.positions.upload(wishes.ends);
         pairs_.path_ends.values.upload(ways_.to);
-        pairs_.slacks.values.upload(ways_.slacks);
         finder_.begin(ways_.paths());
         finder_.run(ways_.paths());
         if (!wishes.capacity) {
             pairs_ = gpu::PairBuffers(model_, {1, 1, 1, 8 * finder_.pairs().size() + 64});
             pairs_.path_ends.values.upload(ways_.to);
-            pairs_.slacks.values.upload(ways_.slacks);
             guard_.grow();
         }
     }

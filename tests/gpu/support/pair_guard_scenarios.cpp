@@ -187,15 +187,19 @@ double handle_error(const Push& push) {
 // Plates, each with one end above the middle of the one below; the first has it above a heavy block. All but
 // the block go down. That stops the end of the first plate, so that this stops the end of the second one, and
 // so on: one in each round.
-Wishes stairs(int plates) {
+struct Stairs {
+    int plates;
+    double tread = 0.2, gap = 0.002, fall = 0.04;  // [m]
+};
+Wishes make_stairs(const Stairs& stairs) {
     std::vector<Block> blocks{
         {.place = {-0.3, -0.3, -0.1}, .cells = {1, 1, 1}, .size = glm::dvec3(0.4, 0.3, 0.3)}};
     std::vector<glm::dvec3> motions{{0.5, 0, 0}};
-    for (int k = 0; k < plates; ++k) {
-        blocks.push_back({.place = {0.2 * k, 0.002 + 0.004 * k, 0.01 * (k % 2)},
+    for (int k = 0; k < stairs.plates; ++k) {
+        blocks.push_back({.place = {stairs.tread * k, stairs.gap + (0.002 + stairs.gap) * k, 0.01 * (k % 2)},
                           .cells = {1, 1, 1},
                           .size = {0.38, 0.002, 0.1}});
-        motions.emplace_back(0.5, -0.04, 0);
+        motions.emplace_back(0.5, -stairs.fall, 0);
     }
     return wish(make_blocks(blocks), by(motions));
 }
@@ -415,9 +419,11 @@ Scenarios pair_guard_scenarios() {
                              .size = 1e-4,
                              .room = 2e-5});
     });
-    add("stairs", [] { return parity_error(stairs(4), 1e-6); });
+    add("stairs", [] { return parity_error(make_stairs({4}), 1e-6); });
     // More than there are rounds: all of it goes with what it has in common.
-    add("long_stairs", [] { return soundness_error(stairs(12), 2.0); });
+    add("long_stairs", [] { return soundness_error(make_stairs({12}), 2.0); });
+    // So low that none leaves its path.
+    add("a_low_pile", [] { return soundness_error(make_stairs({12, 0.0, 1e-4, 0.002}), 2.0); });
     add("a_press", [] { return press_error(); });
     add("a_dozen", [] { return soundness_error(dozen(), 1.1); });
     for (unsigned seed = 1; seed <= 12; ++seed)

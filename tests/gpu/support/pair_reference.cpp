@@ -37,8 +37,7 @@ public:
           model_(*at.model),
           surface_(std::make_shared<ContactSurface>(make_contact_surface(model_, {}))),
           from_(converted<double>(begins_of(at))),
-          to_(converted<double>(found.path_ends)),
-          slacks_(found.slacks.begin(), found.slacks.end()) {
+          to_(converted<double>(found.path_ends)) {
         for (std::uint32_t o = 0; at.own && o < model_.body_count(); ++o)
             if (surface_->is_convex[o] != 0) add_lost(o);
         leaf_of_face_.resize(model_.faces.size());
@@ -49,12 +48,11 @@ public:
 
     const ContactSurface& surface() const { return *surface_; }
     const std::vector<glm::dvec4>& from() const { return from_; }
-    double slack(std::uint32_t object) const { return slacks_[object]; }
     bool has_lost(std::uint32_t body) const { return lost_.contains(body); }
     double fastest() const {
         cpu::FindPairs<double> find(case_.model, surface_, case_.own);
-        find.begin({from_, to_, slacks_});
-        return find.fastest_approach({from_, to_, slacks_});
+        find.begin({from_, to_});
+        return find.fastest_approach({from_, to_});
     }
 
     /// With slacks and boxes that are larger by so much [m]. Of bodies that have lost some distances, those
@@ -63,10 +61,9 @@ public:
         // Where all bodies count as not convex, all of their own pairs are listed.
         auto surface = std::make_shared<ContactSurface>(*surface_);
         std::fill(surface->is_convex.begin(), surface->is_convex.end(), std::uint8_t(0));
-        std::vector<double> slacks = slacks_;
-        for (double& slack : slacks) slack += band;
+        const double thinnest = *std::min_element(surface->thicknesses.begin(), surface->thicknesses.end());
         cpu::FindPairs<double> find(case_.model, surface, case_.own);
-        const cpu::Paths<double> paths{from_, to_, slacks};
+        const cpu::Paths<double> paths{from_, to_, 1.0, tuning::kPathSlack + band / thinnest};
         find.begin(paths);
         find.run(paths);
         Pairs pairs;
@@ -78,7 +75,7 @@ public:
     /// As it is.
     Pairs find_exactly() const {
         cpu::FindPairs<double> find(case_.model, surface_, case_.own);
-        const cpu::Paths<double> paths{from_, to_, slacks_};
+        const cpu::Paths<double> paths{from_, to_};
         find.begin(paths);
         find.run(paths);
         Pairs pairs;
@@ -128,7 +125,6 @@ private:
     const Model& model_;
     std::shared_ptr<ContactSurface> surface_;
     std::vector<glm::dvec4> from_, to_;
-    std::vector<double> slacks_;
     std::map<std::uint32_t, cpu::AxisBox<double>> lost_;  // at the start, by body
     std::vector<std::uint32_t> leaf_of_face_;
 };
@@ -146,24 +142,17 @@ private:
     double worst_ = 0.0;
 };
 
-void compare_paths(const PairCase& at, const FoundPairs& found, const ContactSurface& surface,
-                   PairErrors& errors) {
+void compare_paths(const PairCase& at, const FoundPairs& found, PairErrors& errors) {
     const std::vector<glm::vec4> begins = begins_of(at);
     for (std::size_t o = 0; o < at.model->objects.size(); ++o) {
         const Range& nodes = at.model->objects[o].nodes;
-        double longest = 0.0;
         glm::dvec3 sum(0.0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const glm::dvec3 d(at.predicted[n]);
-            longest = std::max(longest, glm::length(d));
             sum += d;
             errors.add(glm::distance(glm::dvec3(found.path_ends[n]), glm::dvec3(begins[n]) + d), kBand);
             errors.require(found.path_ends[n].w == begins[n].w);
         }
-        const double thickness = surface.thicknesses[o];
-        const double slack = tuning::kSlackOfThickness * thickness +
-                             tuning::kSlackOfMotion * std::min(longest, tuning::kFastest * thickness);
-        errors.add(static_cast<double>(found.slacks[o]) - slack, 1e-5 * slack + 1e-12);
         errors.add(glm::distance(glm::dvec3(found.motions[o]), sum / double(nodes.count)), kBand);
     }
 }
@@ -271,7 +260,7 @@ double error_of_slots(const FoundPairs& found) {
 double error_of_pairs(const PairCase& at, const FoundPairs& found) {
     const PairReference reference(at, found);
     PairErrors errors;
-    compare_paths(at, found, reference.surface(), errors);
+    compare_paths(at, found, errors);
     const double fastest = reference.fastest();
     errors.add(static_cast<double>(found.counts.fastest) - fastest, 1e-4 * fastest + 1e-4);
     if (errors.worst() <= 1.0) compare_slots(found, errors);

@@ -404,7 +404,8 @@ std::shared_ptr<const Model> make_belt() {
         2e-4f);
 }
 
-// A bar that is a ring but for a gap, nearer to itself at rest than contacts reach, and a block within it.
+// A bar that is a ring but for a gap, nearer to itself at rest than contacts reach, which closes at one side, and
+// a block within it.
 std::shared_ptr<const Model> make_ring() {
     TetMesh mesh = make_block({14, 1, 2}, {1.0, 0.04, 0.15}, 0.05, 3);
     const double radius = 0.5 / std::numbers::pi, part = 1.0 - 0.003 / (2.0 * std::numbers::pi * radius);
@@ -417,7 +418,11 @@ std::shared_ptr<const Model> make_ring() {
     Body block = make_body(make_block({2, 2, 2}, glm::dvec3(0.1), 0.15, 4));
     for (glm::dvec3& p : block.mesh.positions) p += glm::dvec3(radius - 0.1 - kGap, -0.05, 0.02);
     block.velocity = {1.0, 0.2, 0.0};
-    return shaken(pack_bodies({ring, block}, {}, {0.0, -9.81, 0.0}), 2e-4f);
+    Model model = pack_bodies({ring, block}, {}, {0.0, -9.81, 0.0});
+    for (std::uint32_t n = 0; n < model.objects[0].nodes.count; ++n)
+        if (const glm::vec4 x = model.positions[n]; x.x > 0.0f)
+            model.velocities[n].y += (x.y > 0.0f ? -1.4f : 1.4f) * x.z;
+    return shaken(model, 2e-4f);
 }
 
 // Towers beside each other, of which some bodies are far from others.

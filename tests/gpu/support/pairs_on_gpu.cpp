@@ -51,7 +51,6 @@ PairsOnGpu::PairsOnGpu(const PairCase& at)
     poison(pairs_.slots.values);
     poison(pairs_.pairs.values);
     poison(pairs_.path_ends.values);
-    poison(pairs_.slacks.values);
     poison(pairs_.motions.values);
 }
 
@@ -91,8 +90,7 @@ FoundPairs PairsOnGpu::give_up() {
 
 FoundPairs PairsOnGpu::read() const {
     return {all_of(pairs_.counts)[0],    all_of(pairs_.slots.values),     all_of(pairs_.slot_starts.values),
-            all_of(pairs_.pairs.values), all_of(pairs_.path_ends.values), all_of(pairs_.motions.values),
-            all_of(pairs_.slacks.values)};
+            all_of(pairs_.pairs.values), all_of(pairs_.path_ends.values), all_of(pairs_.motions.values)};
 }
 
 void PairsOnGpu::limit(const gpu::PairCapacity& capacity) {

@@ -30,7 +30,6 @@ struct FoundPairs {
     std::vector<std::uint32_t> slot_starts;
     std::vector<NearPair> pairs;
     std::vector<glm::vec4> path_ends, motions;
-    std::vector<float> slacks;
 
     std::vector<NearPair> listed() const { return {pairs.begin(), pairs.begin() + counts.pairs}; }
 };

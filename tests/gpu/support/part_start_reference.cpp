@@ -81,7 +81,7 @@ public:
             const NearPairs& near = result.near.emplace_back(find_pairs(previous_.positions, is_shortest));
             const bool is_found = is_shortest || near.fastest <= static_cast<float>(tuning::kFastest);
             if (is_found)
-                rows_of_.make({previous_.positions, predicted_, compliances_, slacks(), step,
+                rows_of_.make({previous_.positions, predicted_, compliances_, step,
                                static_cast<double>(case_.last_step)},
                               near.pairs, cpu::AttachmentRows<double>(case_.model), system_.rows);
             clock.parts = paces_.count_parts(system_.rows);
@@ -137,20 +137,6 @@ private:
         }
     }
 
-    std::vector<double> slacks() const {
-        std::vector<double> slacks;
-        for (std::uint32_t o = 0; o < model_.objects.size(); ++o) {
-            double longest = 0.0;
-            const Range& nodes = model_.objects[o].nodes;
-            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-                longest = std::max(longest, glm::length(predicted_[n]));
-            const double thickness = surface_->thicknesses[o];
-            slacks.push_back(tuning::kSlackOfThickness * thickness +
-                             tuning::kSlackOfMotion * std::min(longest, tuning::kFastest * thickness));
-        }
-        return slacks;
-    }
-
     double deepest() const {
         double deepest = 0.0;
         for (const ContactRow<double>& row : system_.rows) {
@@ -167,8 +153,7 @@ private:
         if (!case_.has_pairs) return near;
         std::vector<glm::dvec4> to = from;
         for (std::size_t n = 0; n < to.size(); ++n) to[n] += glm::dvec4(predicted_[n], 0.0);
-        const std::vector<double> slack = slacks();
-        const cpu::Paths<double> paths{from, to, slack};
+        const cpu::Paths<double> paths{from, to};
         pairs_of_.begin(paths);
         near.fastest = static_cast<float>(pairs_of_.fastest_approach(paths));
         if (near.fastest > static_cast<float>(tuning::kFastest) && !is_shortest) return near;
@@ -197,9 +182,8 @@ private:
         std::vector<cpu::NearPair<double>> near = find_pairs(positions, true).pairs;
         for (std::size_t p = near.size(); p-- > 0;)
             if (p % 5 == 0) near.erase(near.begin() + static_cast<std::ptrdiff_t>(p));
-        rows_of_.make(
-            {positions, predicted_, compliances_, slacks(), static_cast<double>(case_.last_step), 0.0}, near,
-            cpu::AttachmentRows<double>(case_.model), rows);
+        rows_of_.make({positions, predicted_, compliances_, static_cast<double>(case_.last_step), 0.0}, near,
+                      cpu::AttachmentRows<double>(case_.model), rows);
         Field moved;
         for (const cpu::Vec3<double>& d : random_field<double>(model_.node_count(), 8))
             moved.push_back(1e-3 * d);
