@@ -4,7 +4,6 @@
 #include <array>
 #include <numeric>
 #include <span>
-#include <utility>
 
 namespace gelatin::cpu {
 namespace {
@@ -32,21 +31,15 @@ struct SortedTet {
     bool operator<(const SortedTet& other) const { return nodes.x < other.nodes.x; }
 };
 
-// An edge of a tet, or a spring: by nodes, then tets before springs.
-struct ElementEdge {
-    std::uint32_t i, j, tet, spring;
+// A tet's edge: by nodes, then by tet.
+struct TetEdge {
+    std::uint32_t i, j, tet;
 
-    bool operator<(const ElementEdge& other) const {
-        return std::array{i, j, tet, spring} < std::array{other.i, other.j, other.tet, other.spring};
+    bool operator<(const TetEdge& other) const {
+        return std::array{i, j, tet} < std::array{other.i, other.j, other.tet};
     }
 };
-// Of one edge: its tets, and then its spring, if it has one.
-struct EdgeElements {
-    std::span<const ElementEdge> all;
-
-    bool has_spring() const { return all.back().spring != kNoNode; }
-    std::size_t tet_count() const { return all.size() - (has_spring() ? 1 : 0); }
-};
+using EdgeTets = std::span<const TetEdge>;  // of one edge
 
 class ArraysBuilder {
 public:
@@ -102,42 +95,35 @@ public:
 
     void add_edges() {
         const std::uint32_t springs_end = kGroup * arrays_.first_neo_hookean;
-        std::vector<ElementEdge> edges;
+        std::vector<TetEdge> edges;
         for (std::uint32_t t = 0; t < nodes_.size(); ++t) {
             const glm::uvec4& n = nodes_[t];
             if (n.x == n.y) continue;  // it pads
             for (int c = 0; c < 3; ++c)
-                for (int e = c + 1; e < 4; ++e) edges.push_back({n[c], n[e], t, kNoNode});
-        }
-        for (std::uint32_t s = 0; s < model_.springs.size(); ++s) {
-            const auto [i, j] = std::minmax(model_.springs[s].i, model_.springs[s].j);
-            edges.push_back({i, j, kNoNode, s});
+                for (int e = c + 1; e < 4; ++e) edges.push_back({n[c], n[e], t});
         }
         std::sort(edges.begin(), edges.end());
-        std::vector<EdgeElements> edges_by_kind[2];  // of springs, and neo-Hookean
+        std::vector<EdgeTets> edges_by_kind[2];  // of springs, and neo-Hookean
         for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-            const ElementEdge& edge = edges[begin];
-            while (end < edges.size() && edges[end].i == edge.i && edges[end].j == edge.j)
-                if (edges[end++].spring != kNoNode) break;
-            const bool is_neo_hookean = edge.tet != kNoNode && edge.tet >= springs_end;
-            edges_by_kind[is_neo_hookean ? 1 : 0].push_back({std::span(edges).subspan(begin, end - begin)});
+            const TetEdge& edge = edges[begin];
+            while (end < edges.size() && edges[end].i == edge.i && edges[end].j == edge.j) ++end;
+            edges_by_kind[edge.tet < springs_end ? 0 : 1].push_back(
+                std::span(edges).subspan(begin, end - begin));
         }
         // Edges of as many tets beside each other: the lanes of a group then have equal work.
-        for (std::vector<EdgeElements>& kind : edges_by_kind) {
+        for (std::vector<EdgeTets>& kind : edges_by_kind) {
             for (auto part = kind.begin(); part != kind.end();) {
                 const auto end = part + std::min(kSortedEdges, kind.end() - part);
-                std::stable_sort(part, end, [](const EdgeElements& a, const EdgeElements& b) {
-                    return a.tet_count() > b.tet_count();
-                });
+                std::stable_sort(part, end, [](EdgeTets a, EdgeTets b) { return a.size() > b.size(); });
                 part = end;
             }
         }
         std::vector<std::uint32_t>& starts = arrays_.half_edge_starts;
         starts.assign(arrays_.node_count + 1, 0);
-        for (const std::vector<EdgeElements>& kind : edges_by_kind) {
-            for (const EdgeElements& edge : kind) {
-                ++starts[edge.all[0].i + 1];
-                ++starts[edge.all[0].j + 1];
+        for (const std::vector<EdgeTets>& kind : edges_by_kind) {
+            for (const EdgeTets& edge : kind) {
+                ++starts[edge[0].i + 1];
+                ++starts[edge[0].j + 1];
             }
         }
         std::partial_sum(starts.begin(), starts.end(), starts.begin());
@@ -146,7 +132,7 @@ public:
         for (std::uint32_t kind = 0; kind < 2; ++kind) {
             arrays_.first_neo_hookean_edges = static_cast<std::uint32_t>(arrays_.edges.size());
             for (std::size_t k = 0; k < edges_by_kind[kind].size(); ++k) {
-                if (k % kGroup == 0) add_edge_group(edges_by_kind[kind][k].all[0], kind);
+                if (k % kGroup == 0) add_edge_group(kind);
                 add_edge(edges_by_kind[kind][k], k % kGroup, kind);
             }
         }
@@ -194,7 +180,7 @@ private:
         columns.lambda[lane] = tet.gradient_1.w * tet.gradient_3.w;
     }
 
-    std::uint32_t number(const ElementEdge& edge, std::uint32_t kind) const {
+    std::uint32_t number(const TetEdge& edge, std::uint32_t kind) const {
         const glm::uvec4& n = nodes_[edge.tet];
         std::uint32_t c = 0, e = 1;
         while (n[static_cast<int>(c)] != edge.i) ++c;
@@ -204,42 +190,31 @@ private:
         return ElasticArrays::kTetEdges * t + (c == 0 ? e - 1 : c + e);
     }
 
-    // @param first of its edges
-    void add_edge_group(const ElementEdge& first, std::uint32_t kind) {
+    void add_edge_group(std::uint32_t kind) {
         EdgeColumns& edges = arrays_.edges.emplace_back();
-        edges.ends[0].fill(first.i);
-        edges.ends[1].fill(first.j);
         edges.places.fill(static_cast<std::uint32_t>(arrays_.half_edge_ends.size()) + kind);
         edges.places_back = edges.places;
         edges.first = edges.end = static_cast<std::uint32_t>(arrays_.edge_tets.size());
     }
 
-    void add_edge(const EdgeElements& edge, std::size_t lane, std::uint32_t kind) {
+    void add_edge(EdgeTets edge, std::size_t lane, std::uint32_t kind) {
         EdgeColumns& edges = arrays_.edges.back();
-        const auto [i, j] = std::pair(edge.all[0].i, edge.all[0].j);
         const auto take_place = [&](std::uint32_t node, std::uint32_t other) {
             arrays_.half_edge_ends[next_[node]] = other;
             return next_[node]++;
         };
-        edges.ends[0][lane] = i;
-        edges.ends[1][lane] = j;
-        edges.places[lane] = take_place(i, j);
-        edges.places_back[lane] = take_place(j, i);
-        if (edge.has_spring()) {
-            const Spring& spring = model_.springs[edge.all.back().spring];
-            edges.spring.rest_lengths[lane] = spring.rest_length;
-            edges.spring.stiffnesses[lane] = spring.stiffness;
-        }
+        edges.places[lane] = take_place(edge[0].i, edge[0].j);
+        edges.places_back[lane] = take_place(edge[0].j, edge[0].i);
         const std::uint32_t last =
             kGroup * static_cast<std::uint32_t>(kind == 0 ? arrays_.first_neo_hookean
                                                           : arrays_.neo_hookean.size()) -
             1;
-        for (std::uint32_t k = 0; k < edge.tet_count(); ++k) {
+        for (std::uint32_t k = 0; k < edge.size(); ++k) {
             if (edges.first + k == edges.end) {
                 arrays_.edge_tets.emplace_back().fill(last * (kind == 0 ? 16 : ElasticArrays::kTetEdges));
                 ++edges.end;
             }
-            arrays_.edge_tets[edges.first + k][lane] = number(edge.all[k], kind);
+            arrays_.edge_tets[edges.first + k][lane] = number(edge[k], kind);
         }
     }
 

@@ -43,20 +43,17 @@ struct alignas(64) TetRows {
 };
 
 /// Of a group of edges.
-struct alignas(32) EdgeColumns {
-    std::array<IndexColumn, 2> ends;  ///< its lower node, and the other
-    IndexColumn places, places_back;  ///< of its matrices, from the lower node and from the other
-    SpringLaws spring;                ///< stiffness 0: there is none
+struct EdgeColumns {
+    IndexColumn places, places_back;  ///< of its matrices, from its lower node and from the other
     std::uint32_t first, end;         ///< in edge_tets
 };
 
 /// What ElasticSystem<float> reads and writes, with nodes, tets and edges in groups of kGroup, one in each
-/// lane; nodes of one object. What tets and springs add to K is summed by edge, as a matrix M between two
-/// nodes:
+/// lane; nodes of one object. Springs stay half springs. What tets add to K is summed by edge, as a matrix M
+/// between two nodes:
 ///   (K d)_n = sum over edges of M_nj (d_n - d_j),
-/// which needs none for single nodes, since no element resists translation. Where no tet resists, half
-/// springs take its place, which are smaller. Tets of springs come first, then neo-Hookean ones, each padded
-/// with tets that resist nothing; so do their edges, with those of springs alone among the first.
+/// which needs none for single nodes, since no element resists translation. Tets of springs come first, then
+/// neo-Hookean ones, each padded with tets that resist nothing; so do their edges.
 struct ElasticArrays {
     static constexpr std::uint32_t kMatrix = 9;    ///< floats of a matrix, by columns
     static constexpr std::uint32_t kTetEdges = 6;  ///< between corners: 01 02 03 12 13 23
@@ -93,7 +90,7 @@ struct ElasticArrays {
     std::vector<TetRows> tet_rows;
     std::vector<float> tet_matrices;  ///< of the edges of neo-Hookean tets [N/m]
     std::vector<float> matrices;      ///< of half edges [N/m]
-    bool has_matrices = false;        ///< whether any tet resists; else no edge has one
+    bool has_matrices = false;        ///< whether any is not 0
 };
 
 }  // namespace gelatin::cpu

@@ -21,8 +21,8 @@ void find_tet_volumes(const ElasticStart& start, std::size_t group, ElasticArray
 /// What a group of tets adds to forces and matrices, from `points` if there is a volume term.
 void linearise_tets(const ElasticStart& start, std::size_t group, ElasticArrays& arrays);
 /// M of a group of edges.
-void sum_edges(const ElasticStart& start, std::size_t group, ElasticArrays& arrays);
-/// The forces of a group of nodes, what K has on its diagonal, and half springs where there are no matrices.
+void sum_edges(std::size_t group, ElasticArrays& arrays);
+/// The springs of a group of nodes, their forces and what K has on its diagonal.
 void linearise_nodes(const ElasticStart& start, std::size_t group, ElasticArrays& arrays, Vec3<float>* forces,
                      SymmetricMatrix<float>* diagonal);
 /// K d of some nodes. @param displacements d, xyz; shape [nodes], like the product

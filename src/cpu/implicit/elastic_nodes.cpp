@@ -63,25 +63,37 @@ HWY_INLINE IndexColumn nodes_of(const Range& group) {
     return nodes;
 }
 
-// Forces of springs, and what they add to K's diagonal if no matrix has it.
+// A damper over a step makes of a spring another one, as cpu::damped_spring says.
 HWY_INLINE TermLanes linearise_springs(Lanes d, const ElasticStart& start, std::size_t group,
                                        std::uint32_t row, ElasticArrays& arrays) {
+    const float *positions = &start.positions[0].x, *velocities = &start.velocities[0].x;
     const IndexColumn nodes = nodes_of(arrays.groups[group]);
+    const Columns self = load_nodes(d, positions, &nodes[row]);
+    const FloatLanes own_time = load_nodes(d, velocities, &nodes[row]).w;
     TermLanes terms;
     for (std::uint32_t b = arrays.spring_starts[group]; b < arrays.spring_starts[group + 1]; ++b) {
         LinearSprings& springs = arrays.springs[b];
         const SpringLaws& laws = arrays.spring_laws[b];
         prefetch_block(&springs);
         prefetch_block(&laws);
-        const SpringLanes spring(d, start, arrays.is_damped, &nodes[row], &springs.others[row], laws, row);
-        terms.force = multiply_add(spring.pull, spring.apart, terms.force);
-        if (arrays.has_matrices) continue;
-        terms.hessian.add_identity(spring.across);
-        terms.hessian.add_outer(FloatLanes(1.0f), spring.stretch);
-        hn::StoreU(spring.stretch.x.v, d, &springs.stretches[0][row]);
-        hn::StoreU(spring.stretch.y.v, d, &springs.stretches[1][row]);
-        hn::StoreU(spring.stretch.z.v, d, &springs.stretches[2][row]);
-        hn::StoreU(spring.across.v, d, &springs.across[row]);
+        const Vec3Lanes apart = difference(load_nodes(d, positions, &springs.others[row]), self);
+        const FloatLanes inverse = inverse_length<FloatLanes>(apart);
+        SpringLaw<FloatLanes> law{load(d, laws.rest_lengths, row), load(d, laws.stiffnesses, row)};
+        if (arrays.is_damped) {
+            const FloatLanes times = own_time + FloatLanes(load_nodes(d, velocities, &springs.others[row]).w);
+            law =
+                damped_spring(law, FloatLanes(1.0f) / inverse, FloatLanes(0.5f * start.inverse_step) * times);
+        }
+        const FloatLanes pull = multiply_add(-(law.stiffness * law.rest_length), inverse, law.stiffness);
+        const FloatLanes across = larger(pull, FloatLanes(0.0f));
+        const Vec3Lanes stretch = (square_root(law.stiffness - across) * inverse) * apart;
+        terms.force = multiply_add(pull, apart, terms.force);
+        terms.hessian.add_identity(across);
+        terms.hessian.add_outer(FloatLanes(1.0f), stretch);
+        hn::StoreU(stretch.x.v, d, &springs.stretches[0][row]);
+        hn::StoreU(stretch.y.v, d, &springs.stretches[1][row]);
+        hn::StoreU(stretch.z.v, d, &springs.stretches[2][row]);
+        hn::StoreU(across.v, d, &springs.across[row]);
     }
     return terms;
 }
@@ -130,27 +142,12 @@ HWY_FLATTEN void node_group(const ElasticStart& start, std::size_t group, Elasti
     }
 }
 
-HWY_INLINE glm::vec3 product_of_edges(std::size_t n, const ElasticArrays& arrays,
-                                      const float* displacements) {
-    Row x = row_of(0.0f), y = row_of(0.0f), z = row_of(0.0f);
-    const Row self = load_row(displacements + 4 * n);
-    for (std::uint32_t e = arrays.half_edge_starts[n]; e < arrays.half_edge_starts[n + 1]; ++e) {
-        const Row change = self - load_row(displacements + 4 * std::size_t(arrays.half_edge_ends[e]));
-        const float* matrix = &arrays.matrices[ElasticArrays::kMatrix * std::size_t(e)];
-        x = add_times(load_row(matrix), part_of<0>(change), x);
-        y = add_times(load_row(matrix + 3), part_of<1>(change), y);
-        z = add_times(load_row(matrix + 6), part_of<2>(change), z);
-    }
-    glm::vec4 sum;
-    store_row(x + y + z, &sum.x);
-    return sum;
-}
-
-// @param rows output: of the group's nodes
-HWY_INLINE void product_of_springs(std::size_t group, const ElasticArrays& arrays, const float* displacements,
-                                   glm::vec4* rows) {
+HWY_INLINE void product_group(const Range& wanted, std::size_t group, const ElasticArrays& arrays,
+                              const float* displacements, glm::vec3* product) {
     const Lanes d;
-    const IndexColumn own = nodes_of(arrays.groups[group]);
+    HWY_ALIGN float rows[4 * kGroup];
+    const Range& nodes = arrays.groups[group];
+    const IndexColumn own = nodes_of(nodes);
     for (std::uint32_t row = 0; row < kGroup; row += kLanes) {
         const Columns self = load_nodes(d, displacements, &own[row]);
         Vec3Lanes sum(FloatLanes(0.0f));
@@ -162,27 +159,32 @@ HWY_INLINE void product_of_springs(std::size_t group, const ElasticArrays& array
             sum = multiply_add(load(d, springs.across, row), change, sum);
             sum = multiply_add(dot(stretch, change), stretch, sum);
         }
-        hn::StoreInterleaved4(sum.x.v, sum.y.v, sum.z.v, hn::Zero(d), d, &rows[row].x);
+        hn::StoreInterleaved4(sum.x.v, sum.y.v, sum.z.v, hn::Zero(d), d, rows + 4 * row);
+    }
+    for (std::size_t n = std::max(nodes.first, wanted.first); n < std::min(nodes.end(), wanted.end()); ++n) {
+        Row x = load_row(rows + 4 * (n - nodes.first)), y = row_of(0.0f), z = row_of(0.0f);
+        if (arrays.has_matrices) {
+            const Row self = load_row(displacements + 4 * n);
+            for (std::uint32_t e = arrays.half_edge_starts[n]; e < arrays.half_edge_starts[n + 1]; ++e) {
+                const Row change = self - load_row(displacements + 4 * std::size_t(arrays.half_edge_ends[e]));
+                const float* matrix = &arrays.matrices[ElasticArrays::kMatrix * std::size_t(e)];
+                x = add_times(load_row(matrix), part_of<0>(change), x);
+                y = add_times(load_row(matrix + 3), part_of<1>(change), y);
+                z = add_times(load_row(matrix + 6), part_of<2>(change), z);
+            }
+        }
+        glm::vec4 sum;
+        store_row(x + y + z, &sum.x);
+        product[n] = glm::vec3(sum);
     }
 }
 
 HWY_FLATTEN void product_range(const Range& nodes, const ElasticArrays& arrays,
                                const glm::vec4* displacements, glm::vec3* product) {
     if (nodes.count == 0) return;
-    const float* from = &displacements[0].x;
-    if (arrays.has_matrices) {
-        for (std::size_t n = nodes.first; n < nodes.end(); ++n)
-            product[n] = product_of_edges(n, arrays, from);
-        return;
-    }
-    HWY_ALIGN glm::vec4 rows[kGroup];
     const std::size_t end = arrays.groups_of_nodes[nodes.end() - 1] + 1;
-    for (std::size_t g = arrays.groups_of_nodes[nodes.first]; g < end; ++g) {
-        product_of_springs(g, arrays, from, rows);
-        const Range& group = arrays.groups[g];
-        for (std::size_t n = std::max(group.first, nodes.first); n < std::min(group.end(), nodes.end()); ++n)
-            product[n] = rows[n - group.first];
-    }
+    for (std::size_t g = arrays.groups_of_nodes[nodes.first]; g < end; ++g)
+        product_group(nodes, g, arrays, &displacements[0].x, product);
 }
 
 }  // namespace gelatin::cpu::HWY_NAMESPACE

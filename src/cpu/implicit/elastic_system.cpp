@@ -342,7 +342,7 @@ void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
         !model_->neo_hookean_tets.empty() ||
         std::any_of(arrays_.resists.begin(), arrays_.resists.end(), [](auto r) { return r != 0; });
     if (arrays_.has_matrices)
-        for_each_group(arrays_.edges.size(), [&](std::size_t g) { sum_edges(start, g, arrays_); });
+        for_each_group(arrays_.edges.size(), [&](std::size_t g) { sum_edges(g, arrays_); });
     for_each_group(arrays_.groups.size(), [&](std::size_t g) {
         if (left_out_nodes_[g] == 0) linearise_nodes(start, g, arrays_, forces_.data(), diagonal_.data());
     });

@@ -229,7 +229,7 @@ HWY_INLINE Mat3Lanes neo_hookean_matrices(Lanes d, const IndexColumn* tets, std:
         {first.x, first.y, first.z}, {first.w, second.x, second.y}, {second.z, second.w, hn::Load(d, last)}};
 }
 
-HWY_FLATTEN void edge_group(const ElasticStart& start, std::size_t group, ElasticArrays& arrays) {
+HWY_FLATTEN void edge_group(std::size_t group, ElasticArrays& arrays) {
     const Lanes d;
     const EdgeColumns& edges = arrays.edges[group];
     const bool is_neo_hookean = group >= arrays.first_neo_hookean_edges;
@@ -237,16 +237,8 @@ HWY_FLATTEN void edge_group(const ElasticStart& start, std::size_t group, Elasti
         return &arrays.matrices[ElasticArrays::kMatrix * std::size_t(place)];
     };
     for (std::uint32_t row = 0; row < kGroup; row += kLanes) {
-        const FloatLanes zero(0.0f);
-        const Vec3Lanes none(zero);
-        Mat3Lanes sum(none, none, none);
-        if (!is_neo_hookean) {
-            const SpringLanes spring(d, start, arrays.is_damped, &edges.ends[0][row], &edges.ends[1][row],
-                                     edges.spring, row);
-            const FloatLanes& a = spring.across;
-            sum = outer(spring.stretch, spring.stretch) +
-                  Mat3Lanes({a, zero, zero}, {zero, a, zero}, {zero, zero, a});
-        }
+        const Vec3Lanes zero(FloatLanes(0.0f));
+        Mat3Lanes sum(zero, zero, zero);
         for (std::uint32_t k = edges.first; k < edges.end; ++k) {
             const IndexColumn* tets = &arrays.edge_tets[k];
             sum = is_neo_hookean ? sum + neo_hookean_matrices(d, tets, row, arrays)
@@ -280,8 +272,8 @@ void linearise_tets(const ElasticStart& start, std::size_t group, ElasticArrays&
     }
 }
 
-void sum_edges(const ElasticStart& start, std::size_t group, ElasticArrays& arrays) {
-    HWY_DYNAMIC_DISPATCH(edge_group)(start, group, arrays);
+void sum_edges(std::size_t group, ElasticArrays& arrays) {
+    HWY_DYNAMIC_DISPATCH(edge_group)(group, arrays);
 }
 
 }  // namespace gelatin::cpu
