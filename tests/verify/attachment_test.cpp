@@ -149,6 +149,23 @@ TEST(Attachments, APlateSwingsOnAHinge) {
 }
 
 // F = x / C.
+// A door on a post that is held at its foot swings freely, and steps need not be divided for it.
+TEST(Attachments, ADoorOnAPostKeepsItsSwing) {
+    Scene scene = scene_of(jelly(2e7), 0.0);
+    scene.objects = {box("post", {0.12, 1.7, 0.12}, {-0.97, 0.85, 0.0}),
+                     box("door", {0.82, 1.1, 0.06}, {-0.42, 1.0, 0.0})};
+    scene.objects[0].pins = {HalfSpaceRegion{{0.0, 1.0, 0.0}, 0.01}};
+    scene.objects[1].spin = {0.0, 1.0, 0.0};
+    scene.objects[1].velocity = {0.0, 0.0, -0.41};
+    const glm::dvec3 foot(-0.83, 0.5, 0.0), head(-0.83, 1.5, 0.0);
+    scene.attachments = {{.object = "door", .to = "post", .where = AttachedLine{foot, head}}};
+    MeasuredRun run(scene);
+    run.advance(0.2);
+    const double early = run.statistics().kinetic_energy;
+    run.advance(1.0);
+    EXPECT_GT(run.statistics().kinetic_energy, 0.97 * early);
+}
+
 TEST(Attachments, YieldByTheirCompliance) {
     Scene scene = scene_of(jelly(1e6, 0.2));
     scene.objects = {box("cube", {0.2, 0.2, 0.2}, {0.0, 0.0, 0.0})};

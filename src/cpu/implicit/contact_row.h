@@ -48,10 +48,13 @@ struct ContactRow {
     bool drives = false;     ///< what holds does work, or takes energy, and keeps none
     bool is_motor = false;   ///< of these
     /// By which s is less than what is displaced: where a motor wants to be, so that s stays small beside
-    /// how stiff it is [m].
+    /// how stiff it is; of points that are held together minus what rotations of soft bodies add to linear
+    /// displacements [m].
     Vec3<Real> target{0};
 
     bool is_tie() const { return attachment != kNoNode; }
+    /// Of two points that are held together.
+    bool is_point() const { return is_tie() && normal == Vec3<Real>(0); }
 
     /// Of the colliders, where the first side is a plane.
     std::uint32_t plane() const { return static_cast<std::uint32_t>(key >> 31 & 0x7FFFFFFFu); }

@@ -21,7 +21,7 @@ void GluedNodes<Real>::find(std::span<const ContactRow<Real>> rows, std::span<co
         const Range& own = model_->objects[row.other].nodes;
         const std::uint32_t node = row.nodes[0];
         const std::span leaders = std::span(row.nodes).subspan(1, row.count - 1);
-        const bool is_glue = row.is_tie() && row.normal == Vec3<Real>(0) && !leaders.empty() &&
+        const bool is_glue = row.is_point() && !leaders.empty() &&
                              std::none_of(leaders.begin(), leaders.end(),
                                           [&](std::uint32_t n) { return n >= own.first && n < own.end(); });
         const auto is_glued = [&](std::uint32_t n) { return rows_[n] != kNoNode; };

@@ -407,6 +407,8 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     system_.rigid.begin(previous.positions, system_.inertia);
     system_.loads = system_.elastic.forces();
     system_.rigid.follow_rotation(previous.positions, system_.inertia, system_.displacements, system_.loads);
+    for (ContactRow<Real>& row : system_.rows)
+        if (row.is_point()) row.target = -system_.rigid.added_by_rotation(row);
     // Where what is free is wanted is also what its solve starts from. What is held goes on as it goes.
     for_each_index(model_->node_count(), [&](std::size_t n) {
         system_.loads[n] += system_.inertia[n] * system_.displacements[n];
@@ -534,7 +536,10 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
         current.positions[n] = Vec4<Real>(Vec3<Real>(x) + d[n], x.w);
     });
     rigid_bodies_.move(previous.positions, d, current.positions);
-    for (ContactRow<Real>& row : system_.rows) row.turned = Vec3<Real>(0);  // displacements have it now
+    for (ContactRow<Real>& row : system_.rows) {  // displacements have it now
+        row.turned = Vec3<Real>(0);
+        if (row.is_point()) row.target = Vec3<Real>(0);
+    }
     for_each_index(d.size(), [&](std::size_t n) {
         const Vec4<Real> x = previous.positions[n], v = previous.velocities[n];
         if (x.w == Real(0)) {

@@ -94,12 +94,11 @@ void RigidLevel<Real>::make_rigid(std::size_t object, std::span<const Real> iner
 
 template <class Real>
 void RigidLevel<Real>::follow_rotation(std::span<const Vec4<Real>> positions, std::span<const Real> inertia,
-                                       std::span<Vec3<Real>> displacements,
-                                       std::span<Vec3<Real>> forces) const {
+                                       std::span<Vec3<Real>> displacements, std::span<Vec3<Real>> forces) {
     for_each_index(0, bodies_.size(), 1, [&](std::size_t b) {
-        const Body& body = bodies_[b];
+        Body& body = bodies_[b];
         const Motion rigid = rigid_part(body.object, inertia, displacements);
-        const glm::dvec3 w(rigid(3), rigid(4), rigid(5));
+        const glm::dvec3 w = body.rotation = {rigid(3), rigid(4), rigid(5)};
         const Range& nodes = model_->objects[body.object].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const glm::dvec3 r = glm::dvec3(positions[n]) - body.center;
@@ -107,6 +106,18 @@ void RigidLevel<Real>::follow_rotation(std::span<const Vec4<Real>> positions, st
             forces[n] += glm::cross(Vec3<Real>(w), forces[n]);
         }
     });
+}
+
+template <class Real>
+Vec3<Real> RigidLevel<Real>::added_by_rotation(const ContactRow<Real>& row) const {
+    Vec3<Real> sum(0);
+    for (std::uint32_t k = 0; k < row.count; ++k) {
+        const std::uint32_t b = body_of_[row.nodes[k]];
+        if (b == kNoNode || model_->objects[bodies_[b].object].is_rigid) continue;
+        const Vec3<Real> w(bodies_[b].rotation);
+        sum += Real(0.5) * row.weights[k] * glm::cross(w, glm::cross(w, arms_[row.nodes[k]]));
+    }
+    return sum;
 }
 
 template <class Real>

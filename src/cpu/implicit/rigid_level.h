@@ -58,7 +58,9 @@ public:
     /// their bodies.
     /// @param displacements that inertia wants [m] @param forces of elements [N]; both input and output
     void follow_rotation(std::span<const Vec4<Real>> positions, std::span<const Real> inertia,
-                         std::span<Vec3<Real>> displacements, std::span<Vec3<Real>> forces) const;
+                         std::span<Vec3<Real>> displacements, std::span<Vec3<Real>> forces);
+    /// After it: what those of soft bodies will add to s of a row [m].
+    Vec3<Real> added_by_rotation(const ContactRow<Real>& row) const;
 
     /// The rigid part of a displacement of free bodies becomes a true rotation: to first order, as linear
     /// systems have it, bodies would grow. @param displacements input and output [m]
@@ -71,6 +73,7 @@ private:
         glm::dvec3 center{0.0};
         double weight = 0.0;  // m / h^2 of a mass of 1 kg [1/s^2]
         MotionMatrix matrix = MotionMatrix::Zero(), inverse = MotionMatrix::Zero();
+        glm::dvec3 rotation{0.0};  // w
     };
 
     std::shared_ptr<const Model> model_;

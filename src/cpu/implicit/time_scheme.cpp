@@ -187,13 +187,12 @@ template <class Real>
 void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<const std::uint32_t> groups,
                                     std::span<const Vec3<Real>> forces, Nodes<Real>& current) const {
     std::vector<std::vector<std::uint32_t>> members(groups.size());
-    for (std::uint32_t o = 0; o < groups.size(); ++o) members[groups[o]].push_back(o);
+    for (std::uint32_t o = 0; o < groups.size(); ++o)
+        if (rigid.is_free(o)) members[groups[o]].push_back(o);
     for_each_index(0, members.size(), 1, [&](std::size_t g) {
         const std::vector<std::uint32_t>& bodies = members[g];
-        if (bodies.empty() ||
-            !std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t o) { return rigid.is_free(o); }))
-            return;
-        const glm::dvec3 origin(current.positions[model_->objects[g].nodes.first]);
+        if (bodies.empty()) return;
+        const glm::dvec3 origin(current.positions[model_->objects[bodies[0]].nodes.first]);
         RigidSums sums;
         Moving had, has;
         Momenta before;  // how fast they changed
@@ -216,7 +215,7 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
             before.angular += rates_[o].angular + glm::cross(began_[o].center - had.center, rates_[o].linear);
         }
         const RigidInertia inertia(sums);
-        const Scheme s = of_momenta(g);
+        const Scheme s = of_momenta(bodies[0]);
         const auto h = static_cast<double>(s.length), past = static_cast<double>(s.past),
                    alpha = static_cast<double>(s.alpha), gamma = static_cast<double>(s.gamma);
         const glm::dvec3 weight = glm::dvec3(model_->gravity) / inertia.inverse_mass;

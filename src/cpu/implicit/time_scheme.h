@@ -63,8 +63,8 @@ public:
     /// At the end, if it was displaced by so much [m/s].
     Vec3<Real> velocity(const Nodes<Real>& previous, std::size_t node, const Vec3<Real>& displacement) const;
     /// Momentum and angular momentum of free bodies, of which what was not solved would lose some, change by
-    /// what acts on them. Those of a group do so together: what a light one passes on from one side to the
-    /// other would rotate it by its rounding. @param groups of each body the least one of its group
+    /// what acts on them. The free ones of a group do so together: what a light one passes on from one side
+    /// to the other would rotate it by its rounding. @param groups of each body the least one of its group
     /// @param forces of all but elements and gravity [N], shape [nodes]
     void keep_momenta(const RigidLevel<Real>& rigid, std::span<const std::uint32_t> groups,
                       std::span<const Vec3<Real>> forces, Nodes<Real>& current) const;
