@@ -154,6 +154,9 @@ TEST(Attachments, ADoorOnAPostKeepsItsSwing) {
     Scene scene = scene_of(jelly(2e7), 0.0);
     scene.objects = {box("post", {0.12, 1.7, 0.12}, {-0.97, 0.85, 0.0}),
                      box("door", {0.82, 1.1, 0.06}, {-0.42, 1.0, 0.0})};
+    scene.objects[0].shape = BoxShape{{0.12, 1.7, 0.12}, {1, 12, 1}};
+    scene.objects[1].shape = BoxShape{{0.82, 1.1, 0.06}, {7, 9, 1}};
+    for (ObjectDescription& object : scene.objects) object.mesher = {};
     scene.objects[0].pins = {HalfSpaceRegion{{0.0, 1.0, 0.0}, 0.01}};
     scene.objects[1].spin = {0.0, 1.0, 0.0};
     scene.objects[1].velocity = {0.0, 0.0, -0.41};
