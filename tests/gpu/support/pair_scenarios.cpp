@@ -109,6 +109,19 @@ PairCase pressed(bool everywhere, bool at_first, bool at_last) {
     return at;
 }
 
+// A plate of which one end is pressed flat. What is left of its thickness at the other end is enough to lose
+// nothing there, though both sides are near each other.
+PairCase pressed_plate() {
+    const auto model = make_blocks({{.cells = {8, 1, 3}, .size = {0.8, 0.04, 0.3}}});
+    PairCase at{model, motions_of(*model, 0.0, 1e-4)};
+    at.moved.resize(model->node_count(), glm::vec3(0.0f));
+    for (std::uint32_t n = 0; n < model->node_count(); ++n) {
+        const glm::vec3 x(model->positions[n]);
+        if (x.x < 0.25f || x.x > 0.55f) at.moved[n].y = (x.x < 0.25f ? -0.95f : -0.8f) * x.y;
+    }
+    return at;
+}
+
 // All rotates at once, and nothing is deformed: there is no self-contact.
 PairCase rotated() {
     PairCase at = two_blocks();
@@ -234,6 +247,7 @@ Scenarios pair_scenarios() {
             {"calm_bodies_go_on", [] { return calm_error(crowd(12, 20.0)); }},
             compared("pressed", [] { return pressed(true, true, true); }),
             compared("pressed_in_a_place", [] { return pressed(false, true, true); }),
+            compared("pressed_plate", [] { return pressed_plate(); }),
             compared("pressed_at_first", [] { return pressed(false, true, false); }),
             compared("pressed_at_last", [] { return pressed(false, false, true); }),
             compared("rotated", rotated),
