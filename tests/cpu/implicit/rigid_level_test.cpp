@@ -11,7 +11,7 @@
 namespace gelatin {
 namespace {
 
-// What the end of a part makes of linear rotations is what ties were told.
+// What the end of a part makes of linear rotations is what ties have.
 TEST(RigidLevel, TiesKnowWhatRotationsWillAdd) {
     const auto model = test::make_blocks({test::Block{}, test::Block{.place = {0.5, 0, 0}}});
     const std::vector<glm::dvec4> positions = test::converted<double>(model->positions);
