@@ -148,8 +148,7 @@ TEST(Attachments, APlateSwingsOnAHinge) {
     EXPECT_NEAR(0.5 * (crossings[4] - crossings[0]), period, 0.01 * period);
 }
 
-// F = x / C.
-// A door on a post that is held at its foot swings freely, and steps need not be divided for it.
+// A door on a post that is held at its foot swings freely.
 TEST(Attachments, ADoorOnAPostKeepsItsSwing) {
     Scene scene = scene_of(jelly(2e7), 0.0);
     scene.objects = {box("post", {0.12, 1.7, 0.12}, {-0.97, 0.85, 0.0}),
@@ -169,6 +168,7 @@ TEST(Attachments, ADoorOnAPostKeepsItsSwing) {
     EXPECT_GT(run.statistics().kinetic_energy, 0.97 * early);
 }
 
+// F = x / C.
 TEST(Attachments, YieldByTheirCompliance) {
     Scene scene = scene_of(jelly(1e6, 0.2));
     scene.objects = {box("cube", {0.2, 0.2, 0.2}, {0.0, 0.0, 0.0})};

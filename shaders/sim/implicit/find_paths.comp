@@ -1,4 +1,5 @@
-// The paths of nodes where a part begins, and by object their mean, and how far one goes beside it in reaches. The guard may have given paths other ends: then they stay. A work group an object.
+// The paths of nodes where a part begins, and by object their mean, and how far one goes beside it in reaches. The guard may have given
+// paths other ends: then they stay. A work group an object.
 // CPU twins: gelatin::cpu::ImplicitStep::detect, gelatin::cpu::FindPairs::begin. Parity: tests/gpu/implicit/find_pairs_test.cpp.
 const uint kLanes = 256u;
 #include "include/global_index.glsl"

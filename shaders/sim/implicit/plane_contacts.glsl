@@ -1,5 +1,4 @@
-// Nodes near colliders.
-// CPU twin: gelatin::cpu::ContactRows.
+// Nodes near colliders. CPU twin: gelatin::cpu::ContactRows.
 #include "sim/collision/colliders.glsl"
 #include "sim/implicit/group_sums.glsl"
 
