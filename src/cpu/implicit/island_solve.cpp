@@ -25,6 +25,12 @@ std::vector<std::uint32_t> free_ones(const RigidLevel<Real>& rigid, std::span<co
     return some;
 }
 
+// Of what is so far from the body's centre [m].
+template <class Real>
+Vec3<Real> displacement(const Motion& m, const Vec3<Real>& arm) {
+    return Vec3<Real>(m(0), m(1), m(2)) + glm::cross(Vec3<Real>(m(3), m(4), m(5)), arm);
+}
+
 }  // namespace
 
 template <class Real>
@@ -70,7 +76,7 @@ SymmetricMatrix<Real> IslandSolve<Real>::block_of(std::uint32_t node) const {
         const auto [row, place] = system_.row_entries_[e];
         if (row == system_.glued_.row_of(node)) continue;
         const Real weight = system_.rows[row].weights[place];
-        const SymmetricMatrix<Real>& stiffness = tangents_[row - first_row_].stiffness;
+        const SymmetricMatrix<Real>& stiffness = felt_[row - first_row_].stiffness;
         block.diagonal += weight * weight * stiffness.diagonal;
         block.beside += weight * weight * stiffness.beside;
     }
@@ -80,11 +86,11 @@ SymmetricMatrix<Real> IslandSolve<Real>::block_of(std::uint32_t node) const {
 template <class Real>
 void IslandSolve<Real>::prepare_preconditioner(bool only_rows) {
     const GluedNodes<Real>& glued = system_.glued_;
-    tangents_.assign(rows_.tangents.begin(), rows_.tangents.end());
+    felt_.assign(rows_.tangents.begin(), rows_.tangents.end());
     // What moves leaders moves what is glued to them.
     for (std::size_t r = 0; r < rows_.count(); ++r)
         if (const std::uint32_t n = glued.node_of(first_row_ + r); n != kNoNode)
-            tangents_[r].stiffness = block_of(n);
+            felt_[r].stiffness = block_of(n);
     const auto find_block = [&](std::uint32_t n) {
         const bool has_rows = system_.row_starts_[n] < system_.row_starts_[n + 1];
         if (system_.inertia[n] == Real(0) || (only_rows && !has_rows)) return;
@@ -101,7 +107,7 @@ void IslandSolve<Real>::prepare_preconditioner(bool only_rows) {
         if (system_.model_->objects[bodies_[piece.object]].is_rigid) return;
         for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) find_block(n);
     });
-    rigid_.find_matrix(tangents_);
+    rigid_.find_matrix(felt_);
 }
 
 // use(node, displacement [m]) for all nodes; 0 for bodies that are not free.
@@ -109,14 +115,10 @@ template <class Real>
 template <class Use>
 void IslandSolve<Real>::for_displacements(std::span<const Motion> motions, const Use& use) const {
     nodes_.for_each_piece([&](const ObjectPieces::Piece& piece) {
-        Vec3<Real> displacement(0), rotation(0);
-        if (const std::uint32_t b = places_[piece.object]; b != kNoNode) {
-            const Motion& m = motions[b];
-            displacement = Vec3<Real>(m(0), m(1), m(2));
-            rotation = Vec3<Real>(m(3), m(4), m(5));
-        }
+        const std::uint32_t b = places_[piece.object];
+        const Motion motion = b == kNoNode ? Motion(Motion::Zero()) : motions[b];
         for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n)
-            use(n, displacement + glm::cross(rotation, system_.rigid.arm(n)));
+            use(n, displacement(motion, system_.rigid.arm(n)));
     });
 }
 
@@ -138,9 +140,7 @@ template <class Real>
 void IslandSolve<Real>::move_glued() {
     const auto by_body = [&](std::uint32_t object, std::uint32_t n) {
         const std::uint32_t b = rigid_.place_of(object);
-        if (b == kNoNode) return Vec3<Real>(0);
-        const Motion& m = rigid_z_[b];
-        return Vec3<Real>(m(0), m(1), m(2)) + glm::cross(Vec3<Real>(m(3), m(4), m(5)), system_.rigid.arm(n));
+        return b == kNoNode ? Vec3<Real>(0) : displacement(rigid_z_[b], system_.rigid.arm(n));
     };
     for_each_index(rows_.count(), [&](std::size_t r) {
         const std::uint32_t n = system_.glued_.node_of(first_row_ + r);

@@ -51,7 +51,7 @@ private:
     std::uint32_t first_row_;
     bool has_glued_ = false;
     IslandRows<Real> rows_;
-    std::vector<RowTangent<Real>> tangents_;  // what rows resist leaders of glued nodes with
+    std::vector<RowTangent<Real>> felt_;  // tangents, but of glue what leaders feel: the glued node
     RigidSolve<Real> rigid_;
     std::vector<Motion> rigid_z_;  // what z has beside z_, of the rigid level
     SolveCounts counts_;

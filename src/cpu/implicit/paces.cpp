@@ -81,8 +81,8 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
         }
         any_goes_on = any_goes_on || goes_on;
     }
-    // Where something holds them, momenta have to go by the scheme of nodes: by another one stiff ties to what
-    // never moves make them tremble for ever.
+    // Where something holds them, momenta have to go by the scheme of nodes: by another one stiff ties to
+    // what never moves make them tremble for ever.
     for (std::size_t i = 0; i < attached.size(); ++i)
         if (islands.are_held[i] != 0) attached[i] = 0;
     scheme.tie(islands.of_bodies, attached);
