@@ -51,8 +51,8 @@ Real separation(const ContactPair& pair, const Vec3<Real>& direction, std::span<
 /// Where the nodes of a step may go: each goes straight to within a slack of where it is expected.
 template <class Real>
 struct Paths {
-    std::span<const Vec4<Real>> from, to;            ///< xyz [m], shape [nodes]
-    Real nearness = 1;                               ///< within which part of their reach pairs are wanted
+    std::span<const Vec4<Real>> from, to;  ///< xyz [m], shape [nodes]
+    Real nearness = 1;                     ///< within which part of their reach pairs are wanted
     Real slack = static_cast<Real>(tuning::kPathSlack);  ///< [thicknesses of the object]
 };
 

@@ -404,8 +404,8 @@ std::shared_ptr<const Model> make_belt() {
         2e-4f);
 }
 
-// A bar that is a ring but for a gap, nearer to itself at rest than contacts reach, which closes at one side, and
-// a block within it.
+// A bar that is a ring but for a gap, nearer to itself at rest than contacts reach, which closes at one side,
+// and a block within it.
 std::shared_ptr<const Model> make_ring() {
     TetMesh mesh = make_block({14, 1, 2}, {1.0, 0.04, 0.15}, 0.05, 3);
     const double radius = 0.5 / std::numbers::pi, part = 1.0 - 0.003 / (2.0 * std::numbers::pi * radius);
