@@ -73,11 +73,11 @@ const Attachment* AttachmentRows<Real>::find_tie(std::uint32_t node, std::uint32
 }
 
 template <class Real>
-const std::vector<glm::vec4>* AttachmentRows<Real>::positions_when_tied(const ContactPair& pair) const {
+const Attachment* AttachmentRows<Real>::attachment_at(const ContactPair& pair) const {
     if (attachments_.empty()) return nullptr;
     for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t to = pair.side_of(k) == 0 ? pair.other : pair.object;
-        if (const Attachment* tie = find_tie(pair.nodes[k], to)) return tie->positions.get();
+        if (const Attachment* attachment = find_tie(pair.nodes[k], to)) return attachment;
     }
     return nullptr;
 }

@@ -28,9 +28,8 @@ public:
     std::vector<AttachmentForce> forces(const Nodes<Real>& nodes) const;
     void archive(Archive& archive) { archive.array(forces_); }
 
-    /// If two sides are tied together at one of these nodes, where all nodes were when that was done [m];
-    /// else null.
-    const std::vector<glm::vec4>* positions_when_tied(const ContactPair& pair) const;
+    /// What ties one of these nodes to the other side, if anything does and is not broken.
+    const Attachment* attachment_at(const ContactPair& pair) const;
     bool is_tied_to_plane(std::uint32_t node, std::uint32_t plane) const;
     /// Of each body the least one that it is attached to, by others or not.
     std::vector<std::uint32_t> groups() const;

@@ -66,6 +66,8 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
     for (const NearPair<Real>& near : pairs) {
         const ContactPair& pair = near.pair;
         if (!(near.gap > Real(0))) continue;
+        const Attachment* tied = pair.is_own() ? nullptr : attachments.attachment_at(pair);
+        if (tied != nullptr && tied->is_firm) continue;
         const Vec3<Real> apart = near.gap * near.normal;
         Real weight = region.weight(pair, apart, near.weights);
         if (!pair.is_edges() && !(std::min({near.weights.y, near.weights.z, near.weights.w}) > Real(0)))
@@ -101,8 +103,9 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         row.gap = near.gap;
         row.reach = static_cast<Real>(pair.reach);
         // Parts of a body that are near each other at rest do not press there, nor bodies that are attached.
-        const std::vector<glm::vec4>* at_rest =
-            pair.is_own() ? &model_->positions : attachments.positions_when_tied(pair);
+        const std::vector<glm::vec4>* at_rest = pair.is_own()     ? &model_->positions
+                                                : tied != nullptr ? tied->positions.get()
+                                                                  : nullptr;
         const Real rest_reach =
             at_rest == nullptr ? row.reach : static_cast<Real>(tuning::kOfRestGap) * gap_in(*at_rest, pair);
         if (rest_reach < row.reach) {

@@ -183,6 +183,7 @@ private:
                          "surface: a region can name some that are farther",
                          object.name, description_.to, kNear * own_->edge()));
         }
+        made_.is_firm = nodes.size() >= 3 && !(description_.compliance > 0.0);  // fewer are a joint
         std::vector<glm::dvec3> points;
         std::vector<Tie> ties(nodes.size());
         for (std::size_t p = 0; p < nodes.size(); ++p) {

@@ -41,7 +41,8 @@ struct Attachment {
     float compliance = 0.0f;        ///< [m/N]
     float break_force = std::numeric_limits<float>::infinity();  ///< [N]
     bool is_broken = false;                                      ///< from now on
-    std::vector<Tie> ties;                                       ///< none of a slider and a distance
+    bool is_firm = false;   ///< what is tied neither rotates against the other side nor comes nearer to it
+    std::vector<Tie> ties;  ///< none of a slider and a distance
     Joint joint;
     /// Of all nodes when it was made [m].
     std::shared_ptr<const std::vector<glm::vec4>> positions;
