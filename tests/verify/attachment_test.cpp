@@ -213,7 +213,7 @@ TEST(Attachments, BreakWhereTheyCarryTooMuch) {
 }
 
 // What is attached flies as one: nothing is lost or gained. @param at of a joint; none: all is glued
-void expect_kept(std::optional<glm::dvec3> joint, double angular) {
+void expect_kept(std::optional<glm::dvec3> joint) {
     Scene scene = scene_of(jelly(1e5), 0.0);
     scene.objects = {box("a", {0.3, 0.2, 0.2}, {-0.153, 0.0, 0.0}),
                      box("b", {0.3, 0.2, 0.2}, {0.153, 0.0, 0.0}),
@@ -231,19 +231,18 @@ void expect_kept(std::optional<glm::dvec3> joint, double angular) {
         most = std::max(most, run.energy());
     }
     EXPECT_LT(glm::distance(run.momentum(), p), 1e-5 * 25.0);
-    EXPECT_LT(glm::distance(run.angular_momentum(), l), angular * glm::length(l));
+    EXPECT_LT(glm::distance(run.angular_momentum(), l), 1e-5 * glm::length(l));
     EXPECT_LT(most, 1.002 * start);
     EXPECT_GT(run.energy(), 0.5 * start);
     EXPECT_EQ(run.overlaps(), 0u);
 }
 
 TEST(Attachments, KeepMomentumAndAngularMomentum) {
-    expect_kept({}, 1e-3);  // of what presses beside the glue, as of all contacts, some is lost
+    expect_kept({});
 }
 
-// The guard moves nodes by a little where the small box swings against the others.
 TEST(Attachments, KeepMomentumWhereBodiesSwing) {
-    expect_kept(glm::dvec3(-0.1, 0.13, 0.0), 1e-2);
+    expect_kept(glm::dvec3(-0.1, 0.13, 0.0));
 }
 
 TEST(Attachments, ALightBodyCarriesAThousandTimesItsMass) {

@@ -217,7 +217,7 @@ TEST(Cavities, InflatedBodiesKeepWhatTheyHaveInFlight) {
             most = std::max(most, energy(run));
         }
         EXPECT_LT(glm::distance(run.momentum(), momentum), 1e-6 * glm::length(momentum));
-        EXPECT_LT(glm::distance(run.angular_momentum(), angular), 5e-4 * glm::length(angular));
+        EXPECT_LT(glm::distance(run.angular_momentum(), angular), 5e-5 * glm::length(angular));
         const double rotated = glm::angle(run.simulator().rotation(0) * glm::conjugate(before));
         EXPECT_NEAR(rotated, glm::length(spin), 0.03 * glm::length(spin));
         const FrameStatistics now = run.statistics();
