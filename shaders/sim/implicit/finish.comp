@@ -1,7 +1,6 @@
 // Where nodes are when a part ends, and how fast: rigid motions of free bodies become true rotations, to first order bodies would
 // grow. What contacts with planes pass on; what acts on free bodies and how they move, by chunk. A work group a chunk.
-// CPU twins: gelatin::cpu::RigidLevel::rotate, ActingForces, TimeScheme::velocity, ContactRows::note.
-// Parity: tests/gpu/implicit/part_end_test.cpp.
+// CPU twins: gelatin::cpu::RigidLevel::rotate, TimeScheme::velocity, ContactRows::note. Parity: tests/gpu/implicit/part_end_test.cpp.
 const uint kSums = 36u;  // kFinishSums
 #include "sim/drive/load_force.glsl"
 #include "sim/drive/pull.glsl"
@@ -61,11 +60,9 @@ void note(uint n, StepRow row, vec3 s) {
     notes[row.plane * body_node_count + n] = PlaneMemory(vec4(hold, limit), row.reach, row.ease, 0.0, 0.0);
 }
 
-// On a node, by all but elements and gravity [N]. @param couple its share in moments that bring what a contact exerts to the middle
-// between both sides: else their angular momentum would change by the force times the distance that is left [N m]
-vec3 force_on(uint n, vec3 x, vec3 d, out vec3 couple) {
+// On a node, by all but elements and gravity [N]. What a body exerts on itself cancels, also where both sides are apart.
+vec3 force_on(uint n, vec3 x, vec3 d) {
     vec3 force = vec3(0.0);
-    couple = vec3(0.0);
 #ifdef LOADED
     force += load_force(n);
 #endif
@@ -75,10 +72,8 @@ vec3 force_on(uint n, vec3 x, vec3 d, out vec3 couple) {
         uint entry = texelFetch(row_entries, int(e)).x;
         StepRow row = rows[entry / 4u];
         vec4 slip = texelFetch(slips, int(entry / 4u));
-        vec3 part = row.weights[entry % 4u] * force_at(row, slip.xyz, slip.w);
-        force += part;
+        if (row.object != row.other) force += row.weights[entry % 4u] * force_at(row, slip.xyz, slip.w);
         if (has_plane(row)) note(n, row, slip.xyz);
-        if (!has_plane(row)) couple -= 0.5 * sign(row.weights[entry % 4u]) * cross(row.normal.w * row.normal.xyz + slip.xyz, part);
     }
     return force;
 }
@@ -98,8 +93,7 @@ void main() {
     double kinetic = 0.0LF, potential = 0.0LF;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
         vec4 x = texelFetch(positions, int(n)), v = texelFetch(velocities, int(n));
-        vec3 d = displacements[n].xyz, couple, force = force_on(n, x.xyz, d, couple);
-        dvec3 lever = dvec3(x.xyz) + dvec3(d) - dvec3(center);
+        vec3 d = displacements[n].xyz, force = force_on(n, x.xyz, d);
         if (is_free) d += by_true_rotation(rigid, x.xyz - center, d);
         displacements[n] = vec4(d, 0.0);
         vec3 end = x.xyz + d;
@@ -112,7 +106,7 @@ void main() {
         dvec3 r = dvec3(end) - dvec3(center);
         add_node(m, r, dvec3(v.xyz), motion);
         forces += dvec3(force);
-        moments += cross(lever, dvec3(force)) + dvec3(couple);
+        moments += cross(r, dvec3(force));
         moved += m * dvec3(d);
         momentum += m * before;
         angular += m * cross(start, before);

@@ -513,23 +513,30 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
     Field& d = system_.displacements;
     rows_.note(system_.rows, d, asleep_);
     attachments_.note(system_.rows, system_.slips(), static_cast<double>(step_), asleep_);
-    ActingForces<Real> forces(model_->body_count(), previous.positions, d, object_of_);
-    for (std::uint32_t n = 0; n < input.load_forces.size(); ++n)
-        forces.add(n, glm::dvec3(input.load_forces[n]));
+    // Of all but elements and gravity, and of what acts between bodies whose momenta change together: what a
+    // row exerts on both sides cancels there, also where their points are apart.
+    Field forces(d.size(), Vec3<Real>(0));
+    const std::vector<std::uint32_t> groups = attachments_.groups();
+    const auto acts_within = [&](const ContactRow<Real>& row) {
+        return row.object != kNoNode && system_.rigid.is_free(row.object) &&
+               system_.rigid.is_free(row.other) && groups[row.object] == groups[row.other];
+    };
+    for (std::size_t n = 0; n < input.load_forces.size(); ++n) forces[n] = Vec3<Real>(input.load_forces[n]);
     std::erase_if(acting_, [&](const Acting& acting) { return !is_asleep(acting.row); });
     for (std::size_t r = 0; r < system_.rows.size(); ++r) {
         const ContactRow<Real>& row = system_.rows[r];
         const bool is_joint = row.is_tie() && row.normal != Vec3<Real>(0);
         const Vec3<Real> s = is_joint ? system_.slips()[r] : slip<Real>(row, d), force = row.force(s);
-        forces.add(row, force);
+        for (std::uint32_t k = 0; k < row.count && !acts_within(row); ++k)
+            forces[row.nodes[k]] += row.weights[k] * force;
         const Vec3<Real> normal = row.pressing(s) * row.normal;
         if (force != Vec3<Real>(0)) acting_.push_back({row, normal, force - normal});
     }
     if (input.pulls != nullptr)
         for (const std::uint32_t n : input.pulls->nodes()) {
             const Vec4<Real> x = previous.positions[n];
-            forces.add(n, glm::dvec3(input.pulls->force_at_end(n, Vec4<Real>(Vec3<Real>(x) + d[n], x.w),
-                                                               Vec3<Real>(x), step_)));
+            forces[n] +=
+                input.pulls->force_at_end(n, Vec4<Real>(Vec3<Real>(x) + d[n], x.w), Vec3<Real>(x), step_);
         }
     system_.rigid.rotate(previous.positions, system_.inertia, d);
     for_each_index(d.size(), [&](std::size_t n) {
@@ -550,7 +557,7 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
         current.velocities[n] = Vec4<Real>(scheme_.velocity(previous, n, d[n]), v.w);
     });
     rigid_bodies_.keep_velocities(current);
-    scheme_.keep_momenta(system_.rigid, attachments_.groups(), forces.of_bodies(), current);
+    scheme_.keep_momenta(system_.rigid, groups, forces, current);
 }
 
 template <class Real>

@@ -185,7 +185,7 @@ void TimeScheme<Real>::Moving::add(const Moving& more) {
 
 template <class Real>
 void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<const std::uint32_t> groups,
-                                    std::span<const Momenta> acting, Nodes<Real>& current) const {
+                                    std::span<const Vec3<Real>> forces, Nodes<Real>& current) const {
     std::vector<std::vector<std::uint32_t>> members(groups.size());
     for (std::uint32_t o = 0; o < groups.size(); ++o)
         if (rigid.is_free(o)) members[groups[o]].push_back(o);
@@ -204,11 +204,9 @@ void TimeScheme<Real>::keep_momenta(const RigidLevel<Real>& rigid, std::span<con
         };
         for_nodes([&](std::uint32_t n) {
             sums.add(glm::dvec3(current.positions[n]) - origin, mass_of(n, current.positions[n]),
-                     glm::dvec3(0.0));
+                     glm::dvec3(forces[n]));
         });
         for (const std::uint32_t o : bodies) {
-            sums.force += acting[o].linear;
-            sums.moment += acting[o].angular - glm::cross(origin, acting[o].linear);
             had.add(began_[o]);
             has.add(moving(o, current.positions, current.velocities));
         }

@@ -8,7 +8,6 @@
 
 #include "core/archive.h"
 #include "cpu/contact/tuning.h"
-#include "cpu/implicit/acting_forces.h"
 #include "cpu/implicit/rigid_level.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
@@ -66,18 +65,22 @@ public:
     /// Momentum and angular momentum of free bodies, of which what was not solved would lose some, change by
     /// what acts on them. The free ones of a group do so together: what a light one passes on from one side
     /// to the other would rotate it by its rounding. @param groups of each body the least one of its group
-    /// @param acting ActingForces::of_bodies
+    /// @param forces of all but elements and gravity [N], shape [nodes]
     void keep_momenta(const RigidLevel<Real>& rigid, std::span<const std::uint32_t> groups,
-                      std::span<const Momenta> acting, Nodes<Real>& current) const;
+                      std::span<const Vec3<Real>> forces, Nodes<Real>& current) const;
     /// It was made.
     void end(const Nodes<Real>& previous, const Nodes<Real>& current);
 
     Real last_step() const { return last_step_; }  ///< its length, 0: there is none [s]
 
 private:
+    // [kg m/s]; about the centre of mass [kg m^2/s].
+    struct Momenta {
+        glm::dvec3 linear{0.0}, angular{0.0};
+    };
     // Of one body or several.
     struct Moving {
-        Momenta momenta;         // about the centre of mass
+        Momenta momenta;
         glm::dvec3 center{0.0};  // [m]
         double mass = 0.0;       // [kg]
 

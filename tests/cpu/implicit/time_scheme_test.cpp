@@ -144,9 +144,9 @@ TEST(TimeScheme, BodiesThatPartKeepTheirMomentum) {
         for (std::size_t o = 0; o < 2; ++o)
             by_euler[o] ? scheme.set(o, step, 0.0) : scheme.set_second_order(o, step);
         scheme.tie(islands, std::array<std::uint8_t, 2>{});
-        std::array<cpu::Momenta, 2> forces;
-        forces[0].linear.x = -push;
-        forces[1].linear.x = push;
+        std::vector<glm::dvec3> forces(nodes.positions.size(), glm::dvec3(0.0));
+        forces[second - 1].x = -push;
+        forces[second].x = push;
         rigid.begin(nodes.positions, inertia);
         cpu::Nodes<double> next = nodes;
         scheme.keep_momenta(rigid, std::array{0u, 1u}, forces, next);

@@ -59,17 +59,16 @@ std::vector<cpu::ContactRow<double>> sorted_rows(const EndReference& reference) 
     return rows;
 }
 
-// Of the first body with itself, across its inside.
-cpu::ContactRow<double> own_row(std::uint32_t k, const std::vector<glm::dvec4>& positions) {
+// Of the first body with itself.
+cpu::ContactRow<double> own_row(std::uint32_t k) {
     cpu::ContactRow<double> row;
     row.nodes = {k, 40 + k, 20 + 2 * k, 0};
     row.weights = {-1.0, 0.25, 0.75, 0.0};
     row.count = 3;
-    const glm::dvec3 apart = cpu::relative<double>(row, positions);
-    row.normal = glm::dvec3(glm::vec3(glm::normalize(apart)));
-    row.gap = glm::length(apart);
-    row.reach = (1.1 + 0.1 * k) * row.gap;
-    row.stiffness = 3.0 / row.reach;
+    row.normal = glm::dvec3(glm::vec3(glm::normalize(glm::dvec3(0.2 * k, 1.0, 0.5))));
+    row.gap = 2e-3 + 1e-3 * k;
+    row.reach = 6e-3;
+    row.stiffness = 500.0;
     row.friction = 0.3;
     row.limit = 0.5;
     row.key = std::uint64_t(1) << 63 | k;
@@ -108,7 +107,7 @@ public:
         }
         if (at.is_pulled) hold();
         for (int k = 0; k < at.own_rows; ++k)
-            reference_.own_rows.push_back(own_row(static_cast<std::uint32_t>(k), reference_.from.positions));
+            reference_.own_rows.push_back(own_row(static_cast<std::uint32_t>(k)));
         system_.set_iterations(0);
         clock_.size = clock_.left = static_cast<float>(kStepSize);
         clock_.goes_on = 1;

@@ -104,15 +104,18 @@ void EndReference::solve(double step, bool damps) {
 }
 
 void EndReference::finish() {
-    cpu::ActingForces<double> forces(model->body_count(), from.positions, system.displacements, object_of_);
-    for (std::uint32_t n = 0; n < loads.size(); ++n) forces.add(n, glm::dvec3(loads[n]));
-    for (const cpu::ContactRow<double>& row : system.rows)
-        forces.add(row, row.force(cpu::relative<double>(row, system.displacements)));
+    Field forces(expected_.size(), glm::dvec3(0.0));
+    for (std::size_t n = 0; n < loads.size(); ++n) forces[n] = glm::dvec3(loads[n]);
+    for (const cpu::ContactRow<double>& row : system.rows) {
+        if (row.object == row.other) continue;
+        const glm::dvec3 force = row.force(cpu::relative<double>(row, system.displacements));
+        for (std::uint32_t k = 0; k < row.count; ++k) forces[row.nodes[k]] += row.weights[k] * force;
+    }
     if (pulls != nullptr)
         for (const std::uint32_t n : pulls->nodes()) {
             const glm::dvec4 x = from.positions[n];
-            forces.add(n, pulls->force_at_end(n, x + glm::dvec4(system.displacements[n], 0.0), glm::dvec3(x),
-                                              step_size));
+            forces[n] += pulls->force_at_end(n, x + glm::dvec4(system.displacements[n], 0.0), glm::dvec3(x),
+                                             step_size);
         }
     rows.note(system.rows, system.displacements, asleep_);
     system.rigid.rotate(from.positions, system.inertia, system.displacements);
@@ -125,7 +128,7 @@ void EndReference::finish() {
     }
     std::vector<std::uint32_t> each(islands.of_bodies.size());
     std::iota(each.begin(), each.end(), 0u);
-    scheme.keep_momenta(system.rigid, each, forces.of_bodies(), to);
+    scheme.keep_momenta(system.rigid, each, forces, to);
 }
 
 double EndReference::measure() {
