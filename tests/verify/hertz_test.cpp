@@ -161,9 +161,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"springs_on_a_box", kSprings, false, 0.01, {0.0025, 0.005, 0.01}},
                       Case{"tets_on_a_box", kTets, false, 0.01, {0.0025, 0.005, 0.01}}),
     [](const auto& test) { return test.param.name; });
+// Of tets, which are stiffer by 2%, only a smaller one is within 5% of a half-space's.
 INSTANTIATE_TEST_SUITE_P(SmallContacts, HertzLong,
                          ::testing::Values(Case{"springs_on_a_plane", kSprings, true, 0.006, {0.00125}},
-                                           Case{"tets_on_a_plane", kTets, true, 0.006, {0.00125}}),
+                                           Case{"tets_on_a_plane", kTets, true, 0.0045, {0.0006}}),
                          [](const auto& test) { return test.param.name; });
 
 TEST_P(Hertz, ForcesFollowTheDepth) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <span>
 
 #include "cpu/contact/contact_law.h"
@@ -53,6 +54,11 @@ struct ContactRow {
     Vec3<Real> target{0};
 
     bool is_tie() const { return attachment != kNoNode; }
+    /// Whether its force changes with s by the same everywhere.
+    bool is_linear() const {
+        constexpr Real kNone = std::numeric_limits<Real>::max();
+        return is_tie() && limit == kNone && (!is_along || least == -kNone);
+    }
     /// Of two points that are held together.
     bool is_point() const { return is_tie() && normal == Vec3<Real>(0); }
 

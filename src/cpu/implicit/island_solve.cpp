@@ -67,7 +67,16 @@ void IslandSolve<Real>::find_slips() {
                    [&](std::size_t r) { rows_.slips[r] = slip<Real>(rows_.rows[r], system_.displacements); });
 }
 
-// Of A on its diagonal, but for what glues the node.
+// Of a glued node: the sum of their sizes.
+template <class Real>
+Real weight_of_leaders(const ContactRow<Real>& row) {
+    Real sum = 0;
+    for (std::uint32_t k = 1; k < row.count; ++k) sum += std::abs(row.weights[k]);
+    return sum;
+}
+
+// Of A on its diagonal, but for what glues the node. Leaders of one node go together: of the matrix of their
+// weights the sums of rows, which are no less.
 template <class Real>
 SymmetricMatrix<Real> IslandSolve<Real>::block_of(std::uint32_t node) const {
     SymmetricMatrix<Real> block = system_.elastic.diagonal()[node];
@@ -77,8 +86,11 @@ SymmetricMatrix<Real> IslandSolve<Real>::block_of(std::uint32_t node) const {
         if (row == system_.glued_.row_of(node)) continue;
         const Real weight = system_.rows[row].weights[place];
         const SymmetricMatrix<Real>& stiffness = felt_[row - first_row_].stiffness;
-        block.diagonal += weight * weight * stiffness.diagonal;
-        block.beside += weight * weight * stiffness.beside;
+        Real share = weight * weight;
+        if (system_.glued_.node_of(row) != kNoNode)
+            share = std::abs(weight) * weight_of_leaders(system_.rows[row]);
+        block.diagonal += share * stiffness.diagonal;
+        block.beside += share * stiffness.beside;
     }
     return block;
 }
@@ -387,7 +399,7 @@ SolveCounts IslandSolve<Real>::run() {
     for (const std::uint32_t o : bodies_) system_.elastic.begin_product(system_.model_->objects[o]);
     find_base_residual();
     rows_.find_chords(expected);
-    if (rows_.count() == 0) {
+    if (std::all_of(rows_.rows.begin(), rows_.rows.end(), [](const auto& row) { return row.is_linear(); })) {
         newton_step(2 * system_.iterations, 0.0, true);
     } else {
         for (int k = 0;

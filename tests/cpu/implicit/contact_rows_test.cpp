@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "cpu/implicit/attachment_rows.h"
@@ -106,8 +108,8 @@ TEST(ContactRows, HeldNodesMakeNoneStiffer) {
     EXPECT_GT(touching, 3u);
 }
 
-// Near a tie the reach is at most half of the gap when it was made; elsewhere, and when it is broken, as
-// ever.
+// Near a tie the reach is at most half of the gap when it was made, and firm ones leave none; elsewhere, and
+// when it is broken, all is as ever.
 TEST(ContactRowsOfAttachmentsTest, BodiesPressNearTheirTiesFromHalfOfTheirGapOn) {
     constexpr double kGap = 0.004;
     const auto model = test::make_blocks({test::Block{}, test::Block{.place = {0.03, 0.3 + kGap, 0.02}}});
@@ -132,8 +134,10 @@ TEST(ContactRowsOfAttachmentsTest, BodiesPressNearTheirTiesFromHalfOfTheirGapOn)
     attachment.ties[0].nodes[0] = static_cast<std::uint32_t>(lowest - positions.begin());
     attachment.ties[0].weights[0] = 1.0f;
     attachment.ties[0].count = 1;
-    for (const bool is_broken : {false, true}) {
+    for (const auto& [is_broken, is_firm] :
+         std::initializer_list<std::pair<bool, bool>>{{false, false}, {false, true}, {true, true}}) {
         attachment.is_broken = is_broken;
+        attachment.is_firm = is_firm;
         cpu::AttachmentRows<double> attachments(model);
         attachments.set({attachment});
         std::vector<cpu::ContactRow<double>> rows;
@@ -150,7 +154,7 @@ TEST(ContactRowsOfAttachmentsTest, BodiesPressNearTheirTiesFromHalfOfTheirGapOn)
                 ++tied;
             }
         }
-        EXPECT_EQ(tied > 0, !is_broken);
+        EXPECT_EQ(tied > 0, !is_broken && !is_firm);
     }
 }
 
