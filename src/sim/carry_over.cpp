@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "model/assembly/attachments.h"
 #include "model/drive/handle_animation.h"
 #include "sim/body_pose.h"
 
@@ -178,6 +179,22 @@ std::map<std::size_t, CavityGas> carried_over(const Model& from, const std::map<
                    to.objects[other.object].name == from.objects[of.object].name;
         });
         if (same != to.cavities.end()) carried[static_cast<std::size_t>(same - to.cavities.begin())] = set;
+    }
+    return carried;
+}
+
+std::map<std::size_t, JointMotor> carried_over(const Scene& from,
+                                               const std::map<std::size_t, JointMotor>& motors,
+                                               const Scene& to) {
+    std::map<std::size_t, JointMotor> carried;
+    for (const auto& [attachment, set] : motors) {
+        const AttachmentDescription& of = from.attachments[attachment];
+        for (std::size_t a = 0; a < to.attachments.size(); ++a) {
+            const AttachmentDescription& other = to.attachments[a];
+            if (name_of_attachment(other, a) == name_of_attachment(of, attachment) &&
+                other.object == of.object && other.where.index() == of.where.index())
+                carried[a] = set;
+        }
     }
     return carried;
 }

@@ -34,4 +34,9 @@ std::map<std::size_t, HandleArms::Programmed> carried_over(
 std::map<std::size_t, CavityGas> carried_over(const Model& from, const std::map<std::size_t, CavityGas>& gas,
                                               const Model& to);
 
+/// The motors of those attachments of `to` that have the name, the object and the kind of one of `from`.
+std::map<std::size_t, JointMotor> carried_over(const Scene& from,
+                                               const std::map<std::size_t, JointMotor>& motors,
+                                               const Scene& to);
+
 }  // namespace gelatin

@@ -20,7 +20,7 @@ struct Checkpoint {
     std::vector<double> delays = {};                  ///< of handles [s], shape [handles], or none
     /// What programs have given cavities (Cavity::drive_at), NaN: nothing; shape [Model::cavities], or none.
     std::vector<double> cavity_drives = {};
-    std::string programmed = {};  ///< HandleArms::archive; empty: nothing
+    std::string programmed = {};  ///< Simulator::Impl::programmed_of; empty: nothing
 };
 
 /// A model's tets and faces, as a number: what a state belongs to.

@@ -48,13 +48,13 @@ std::span<const Attachment> Playback::shown_attachments() {
 
 void Playback::show(std::size_t index) {
     const RecordedFrame& frame = RecordingInternals::frame(*recording, *model, index);
-    HandleArms moved = arms_of(frame.moment, recording->file());
+    Programmed programmed = programmed_of(frame.moment, recording->file());
     shown = index;
     ++revision;
     frames_->show(frame);
     drags.go_on_with(frame.moment.drags, frame.moment.drag_targets);
     handle_clocks.go_on_with(frame.moment.delays);
-    arms = std::move(moved);
+    arms = std::move(programmed.arms);
     set_cavity_drives(frame.moment.cavity_drives);
     clock.go_on_from(moment_of(frame.moment));
     watch->begin(frame.moment.state, clock.now());

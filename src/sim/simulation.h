@@ -21,7 +21,6 @@ struct Simulation final : SimulatorInternals::Impl {
     std::vector<glm::vec3> forces;        // [N], shape [nodes]; empty: none
     std::vector<Attachment> attachments;  // those of the scene, then those of programs
     std::size_t attachments_at_start = 0;
-    std::map<std::size_t, JointMotor> motors;  // that programs have set, by attachment
     Standstills standstills;
 
     /// @pre the scene is valid, and the model is what build_model makes of it

@@ -41,12 +41,13 @@ void Simulator::save_checkpoint(const std::filesystem::path& file) const {
 void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional<int> frame) {
     Simulation& d = impl_->simulation();
     Checkpoint checkpoint = read_moment(file, frame, *d.model);
-    HandleArms arms = d.arms_of(checkpoint, file);
+    Simulator::Impl::Programmed programmed = d.programmed_of(checkpoint, file);
     const auto host = d.keep_host_state_of_solver();
     hold_as_here(*d.model, checkpoint.state.positions);
     d.drags.go_on_with(checkpoint.drags, checkpoint.drag_targets);
     d.handle_clocks.go_on_with(checkpoint.delays);
-    d.arms = std::move(arms);
+    d.arms = std::move(programmed.arms);
+    d.motors = std::move(programmed.motors);
     d.set_cavity_drives(checkpoint.cavity_drives);
     d.take_state(checkpoint.state, d.moment_of(checkpoint));
 }
@@ -63,6 +64,7 @@ void Simulator::go_on_from(const Simulator& other) {
         carried_over(*from.model, from.drags, *d.model, state, d.handle_clocks.times(time), Drags(d.model));
     d.arms = HandleArms(d.model, carried_over(*from.model, from.arms.programmed(), *d.model));
     d.cavity_gas = carried_over(*from.model, from.cavity_gas, *d.model);
+    d.motors = carried_over(from.scene, from.motors, d.scene);
     d.take_state(state,
                  {frame, time, static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/log.h"
@@ -37,6 +39,49 @@ const ModelObject& Simulator::Impl::body(std::size_t object) const {
         fmt::format("there is no object {}: there are {}, from 0", object, model->body_count()));
 }
 
+namespace {
+
+// Motors by attachment. What is not given is NaN.
+void archive_motors(Archive& archive, std::map<std::size_t, JointMotor>& motors) {
+    using Row = std::array<double, 4>;  // time, speed, position, force
+    const auto row = [](double time, const auto& of) {
+        const double none = std::nan("");
+        return Row{time, of.speed.value_or(none), of.position.value_or(none), of.force.value_or(none)};
+    };
+    const auto set = [](const Row& values, auto& of) {
+        const auto given = [](double value) {
+            return std::isnan(value) ? std::nullopt : std::optional(value);
+        };
+        of.speed = given(values[1]);
+        of.position = given(values[2]);
+        of.force = given(values[3]);
+    };
+    const auto written = std::exchange(motors, {});
+    auto next = written.begin();
+    std::size_t count = written.size();
+    archive.value(count);
+    for (; count > 0 && !archive.has_failed(); --count) {
+        std::size_t attachment = 0;
+        std::vector<Row> rows;
+        if (next != written.end()) {
+            attachment = next->first;
+            rows.push_back(row(0.0, next->second));
+            for (const MotorKeyframe& keyframe : next->second.keyframes)
+                rows.push_back(row(keyframe.time, keyframe));
+            ++next;
+        }
+        archive.value(attachment);
+        archive.list(rows);
+        if (rows.empty()) return archive.fail();
+        JointMotor& motor = motors[attachment];
+        set(rows[0], motor);
+        for (std::size_t k = 1; k < rows.size(); ++k)
+            set(rows[k], motor.keyframes.emplace_back(MotorKeyframe{rows[k][0]}));
+    }
+}
+
+}  // namespace
+
 double Simulator::Impl::time_of(std::size_t handle) const {
     return clock.time() - handle_clocks.delays()[handle];
 }
@@ -60,17 +105,29 @@ Checkpoint Simulator::Impl::checkpoint() const {
     Checkpoint made{now.frame,          now.time,        solver->read_state(),
                     drags.drags(),      drags.targets(), handle_clocks.delays(),
                     set_cavity_drives()};
-    if (arms.programmed().empty()) return made;
+    if (arms.programmed().empty() && motors.empty()) return made;
     Archive archive = Archive::that_writes(made.programmed);
     HandleArms(arms).archive(archive);
+    std::map<std::size_t, JointMotor> set = motors;
+    if (!set.empty()) archive_motors(archive, set);
     return made;
 }
 
-HandleArms Simulator::Impl::arms_of(const Checkpoint& checkpoint, const std::filesystem::path& file) const {
-    HandleArms made(model);
+Simulator::Impl::Programmed Simulator::Impl::programmed_of(const Checkpoint& checkpoint,
+                                                           const std::filesystem::path& file) const {
+    Programmed made{HandleArms(model), {}};
+    if (checkpoint.programmed.empty()) return made;
+    const auto refuse = [&](const char* others) {
+        throw InvalidInput(
+            {file.string(), 0, {}, {}, fmt::format("was made from a scene with other {}", others)});
+    };
     Archive archive = Archive::that_reads(checkpoint.programmed);
-    if (!checkpoint.programmed.empty() && !made.archive(archive))
-        throw InvalidInput({file.string(), 0, {}, {}, "was made from a scene with other animated colliders"});
+    if (!made.arms.archive(archive)) refuse("animated colliders");
+    if (archive.is_complete()) return made;
+    archive_motors(archive, made.motors);
+    if (!archive.is_complete()) refuse("attachments");
+    // Those of attachments that were made while it ran, which are not there.
+    made.motors.erase(made.motors.lower_bound(scene.attachments.size()), made.motors.end());
     return made;
 }
 

@@ -61,6 +61,7 @@ struct Simulator::Impl {
     std::optional<Watch> watch;
     std::uint64_t revision = 0;                   // of the state
     std::map<std::size_t, CavityGas> cavity_gas;  // that programs have set, by cavity
+    std::map<std::size_t, JointMotor> motors;     // that programs have set, by attachment
     mutable StateCopies copies;
     std::deque<PendingStatistics> pending;
     std::uint32_t reported_losses = 0;
@@ -107,8 +108,13 @@ struct Simulator::Impl {
     /// As Checkpoint::cavity_drives.
     std::vector<double> set_cavity_drives() const;
     void set_cavity_drives(const std::vector<double>& drives);
+    /// Arms and motors that programs have set, from Checkpoint::programmed.
+    struct Programmed {
+        HandleArms arms;
+        std::map<std::size_t, JointMotor> motors;
+    };
     /// @throws InvalidInput naming the file, if it does not fit
-    HandleArms arms_of(const Checkpoint& checkpoint, const std::filesystem::path& file) const;
+    Programmed programmed_of(const Checkpoint& checkpoint, const std::filesystem::path& file) const;
     Moment moment_of(const Checkpoint& checkpoint) const;
     void warn_of_losses(const Measurement& measured);
     std::vector<AttachmentStatus> attachment_states() const;

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <vector>
 
+#include "gelatin/recording.h"
 #include "gelatin/simulator.h"
 #include "verify/support/measured_run.h"
 #include "verify/support/rigid_scene.h"
@@ -166,6 +167,34 @@ TEST(Joints, MotorsGoToPositions) {
     run.simulator().reset();
     run.advance(1.0);
     EXPECT_NEAR(run.joint(0).position, 0.0, glm::radians(0.1));
+}
+
+// What a program has set of a motor is in checkpoints and recordings, and goes over to a scene like this one.
+TEST(Joints, MotorsGoOnFromACheckpoint) {
+    const auto folder = std::filesystem::path(::testing::TempDir());
+    const Scene scene = bar_on_hinge({0.0, -kGravity, 0.0});
+    MeasuredRun run(scene), other(scene), recorded(scene), next(scene);
+    const JointMotor motor{.speed = 90.0, .position = -30.0, .keyframes = {{.time = 0.6, .position = 20.0}}};
+    run.simulator().set_motor(0, motor);
+    run.advance(0.5);
+    run.simulator().save_checkpoint(folder / "motor.gelatin");
+    RecordingWriter writer(folder / "motor.gel", run.simulator());
+    writer.write(run.simulator());
+    writer.finish();
+    other.simulator().load_checkpoint(folder / "motor.gelatin");
+    recorded.simulator().load_checkpoint(folder / "motor.gel");
+    next.simulator().go_on_from(run.simulator());
+    for (MeasuredRun* each : {&run, &other, &recorded, &next}) each->advance(0.5);
+    EXPECT_GT(run.joint(0).position, glm::radians(1.0)) << "by the keyframe";
+    EXPECT_EQ(other.joint(0).position, run.joint(0).position);
+    EXPECT_NEAR(recorded.joint(0).position, run.joint(0).position, glm::radians(0.5));
+    EXPECT_NEAR(next.joint(0).position, run.joint(0).position, glm::radians(0.5));
+    // A checkpoint without any: what was set is no more.
+    MeasuredRun idle(scene);
+    idle.simulator().save_checkpoint(folder / "idle.gelatin");
+    other.simulator().load_checkpoint(folder / "idle.gelatin");
+    other.advance(0.5);
+    EXPECT_LT(other.joint(0).position, -glm::radians(40.0)) << "it falls";
 }
 
 // With so little force that it has to brake early.
