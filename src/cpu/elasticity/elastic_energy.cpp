@@ -39,17 +39,23 @@ double volume_energy(const VolumeTerm& term, std::uint32_t n, const Position& po
     return node.x * node.y * volume_potential(volume_ratio_round<double>(term, n, position), node.y);
 }
 
-// The same. @param volumes of the tets of the node's body, from `first` on [m^3]
+// The same. @param volume of all tets around it [m^3]
+double volume_energy(const VolumeTerm& term, std::uint32_t n, double volume) {
+    const glm::dvec2 node(term.nodes[n]);
+    return node.x > 0.0 ? node.x * node.y * volume_potential(0.25 * volume / node.x, node.y) : 0.0;
+}
+
+// By node of a body, of all tets around it [m^3]. They are added by one thread: that takes less time than to
+// gather them by node. @param volumes of its tets [m^3]
 template <class Real>
-double volume_energy(const Model& model, std::uint32_t n, std::uint32_t first,
-                     const std::vector<Real>& volumes) {
-    const glm::dvec2 node(model.volume_term.nodes[n]);
-    if (!(node.x > 0.0)) return 0.0;
-    double volume = 0.0;  // of the tets around it
-    model.volume_term.corners.for_row(n, [&](const TetCorner& corner) {
-        if (corner.tet != packing::kNone) volume += static_cast<double>(volumes[corner.tet - first]);
-    });
-    return node.x * node.y * volume_potential(0.25 * volume / node.x, node.y);
+std::vector<double> volumes_around_nodes(const Model& model, const ModelObject& object,
+                                         std::span<const Real> volumes) {
+    std::vector<double> around(object.nodes.count);
+    for (std::uint32_t t = 0; t < object.tets.count; ++t)
+        for (int k = 0; k < 4; ++k)
+            around[model.tets[object.tets.first + t][k] - object.nodes.first] +=
+                static_cast<double>(volumes[t]);
+    return around;
 }
 
 // Volume ratios of tets. @return what flat ones hold, if they are of springs [J]
@@ -126,6 +132,8 @@ double body_energy(const Model& model, const ModelObject& object, std::span<cons
                 of_task[t] *= static_cast<Real>(model.tet_rests[tets.first + t].volume);
             return flat;
         });
+    std::vector<double> around;
+    if (has_volumes) around = volumes_around_nodes<Real>(model, object, volumes);
     const std::uint32_t elements = object.nodes.count + object.springs.count + object.neo_hookean_tets.count;
     return energy + sum_tasks(elements, [&](const auto& share_of) {
                const Range springs = share_of(object.springs);
@@ -135,7 +143,7 @@ double body_energy(const Model& model, const ModelObject& object, std::span<cons
                if (has_volumes) {
                    const Range nodes = share_of(object.nodes);
                    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-                       sum += volume_energy(model, n, object.tets.first, volumes);
+                       sum += volume_energy(model.volume_term, n, around[n - object.nodes.first]);
                }
                return sum;
            });
