@@ -33,6 +33,7 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
       own_(own),
       object_of_(objects_of_nodes(*model_)),
       kept_(model_, *surface_),
+      near_at_rest_(model_),
       owns_(model_->objects.size()),
       rest_boxes_(model_->face_trees.nodes.size()),
       is_still_(model_->objects.size()),
@@ -57,6 +58,8 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
         if (model_->objects[o].faces.count == 0) continue;
         const std::uint32_t root = trees.roots[o], end = trees.nodes[root].skip;
         update_tree_boxes<Real>(trees, root, faces, rest_boxes_);
+        if (own_ && model_->is_body(o) && !model_->objects[o].is_rigid && !kept_.is_convex(o))
+            near_at_rest_.add(o, rest_boxes_);
         for (std::uint32_t n = root; n < end;) {
             const bool is_small = trees.nodes[n].skip - n <= kMostNodes;
             if (is_small) subtrees_.push_back({o, n});
@@ -179,6 +182,9 @@ void FindPairs<Real>::begin(const Paths<Real>& paths, bool own, std::span<const 
             sum += glm::dvec3(paths.to[n]) - glm::dvec3(paths.from[n]);
         motions_[o] = Vec3<Real>(sum / static_cast<double>(nodes.count));
         update_boxes(o, paths);
+        if (finds_own_)
+            near_at_rest_.begin(static_cast<std::uint32_t>(o), paths.from, paths.to,
+                                (paths.nearness + paths.slack) * static_cast<Real>(surface_->reach(o, o)));
     });
     object_tree_.update(bounding_boxes_);
 }
@@ -332,6 +338,11 @@ void FindPairs<Real>::search(const Subtree& subtree, const Paths<Real>& paths, b
     for (const std::uint32_t other : found.objects) {
         const std::uint32_t first = model_->face_trees.roots[other];
         const std::size_t before = found.starts.size();
+        if (other == object && !changed && near_at_rest_.is_enough(object)) {
+            found.starts.push_back({first, 0});  // leaves know
+            found.start_counts.push_back(1);
+            continue;
+        }
         walk(subtree, other, std::array{Range{first, nodes[first].skip - first}}, others_alone(root),
              [&](std::uint32_t n) {
                  found.starts.push_back({n, nodes[n].skip - n});
@@ -367,8 +378,13 @@ void FindPairs<Real>::search(const Subtree& leaf, std::uint32_t other, std::span
     const Vec3<Real> motion = motions_[object] - motions_[other];  // beside the other
     for (std::vector<Range>& ranges : found.faces) ranges.clear();
     for (std::vector<Range>& ranges : found.edges) ranges.clear();
-    walk(leaf, other, starts, changed && !has_changed(object, leaf.root),
-         [&](std::uint32_t n) { add_leaf(leaf, other, n, found); });
+    if (other == object && !changed && near_at_rest_.is_enough(object)) {
+        near_at_rest_.find(object, leaf.root, found.leaves);
+        for (const std::uint32_t n : found.leaves) add_leaf(leaf, other, n, found);
+    } else {
+        walk(leaf, other, starts, changed && !has_changed(object, leaf.root),
+             [&](std::uint32_t n) { add_leaf(leaf, other, n, found); });
+    }
     const auto reach = static_cast<float>(surface_->reach(object, other));
     const auto add = [&](const ContactPair& pair, bool is_new) {
         if (!changed || is_new || has_changed_node(pair))

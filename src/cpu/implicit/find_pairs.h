@@ -13,6 +13,7 @@
 #include "cpu/collision/object_tree.h"
 #include "cpu/contact/contact_pair.h"
 #include "cpu/contact/kept_distances.h"
+#include "cpu/contact/near_at_rest.h"
 #include "cpu/contact/tuning.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"
@@ -97,6 +98,7 @@ private:
     struct Found {
         std::vector<std::uint32_t> objects;              // near the subtree
         std::vector<Range> starts;                       // nodes near the subtree, of all these objects
+        std::vector<std::uint32_t> leaves;               // of its own body near a leaf
         std::vector<std::uint32_t> start_counts;         // of each
         std::array<std::vector<Range>, 2> faces, edges;  // of leaves near the leaf; of new ones, between
                                                          // which a body lost something
@@ -141,6 +143,7 @@ private:
     JoinedBodies joined_;
     std::vector<std::uint32_t> object_of_;
     KeptDistances<Real> kept_;
+    NearAtRest<Real> near_at_rest_;  // of bodies that are not convex
     std::vector<Own> owns_;
     std::vector<AxisBox<Real>> rest_boxes_;  // of the faces at the start, by node of the trees
     Boxes boxes_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace gelatin {
 namespace {
@@ -47,6 +48,37 @@ TEST(ContactRow, FrictionIsLimited) {
     for (const double beside : {0.0, 0.1, 1.0, 100.0}) {
         const glm::dvec3 across = glm::normalize(glm::cross(row.normal, glm::dvec3(0, 0, 1)));
         EXPECT_LE(glm::length(row.held(beside * across)), 0.4 + 1e-12);
+    }
+}
+
+// A tie without limits has one tangent everywhere, and nothing else has.
+TEST(ContactRow, TiesWithoutLimitsAreLinear) {
+    constexpr double kNone = std::numeric_limits<double>::max();
+    cpu::ContactRow<double> tie;
+    tie.attachment = 0;
+    tie.stiffness = 3.0;
+    tie.hold = {0.2, -0.1, 0.3};
+    tie.gap = tie.limit = kNone;
+    cpu::ContactRow<double> rail = tie, stop = tie, weak = tie;
+    for (cpu::ContactRow<double>* row : {&rail, &stop, &weak}) {
+        row->normal = {0.6, 0.0, 0.8};
+        row->is_along = true;
+        row->least = -kNone;
+    }
+    stop.least = 0.0;
+    weak.limit = 0.5;
+    const auto has_one_tangent = [](const cpu::ContactRow<double>& row) {
+        const glm::dvec3 s(0.3, -0.7, 0.2);
+        const cpu::RowTangent<double> t = cpu::tangent(row, s);
+        return glm::distance(t.force(-s), row.force(-s)) < 1e-12;
+    };
+    for (const auto& row : {tie, rail}) {
+        EXPECT_TRUE(row.is_linear());
+        EXPECT_TRUE(has_one_tangent(row));
+    }
+    for (const auto& row : {stop, weak, make_row(0.0), make_row(0.4)}) {
+        EXPECT_FALSE(row.is_linear());
+        EXPECT_FALSE(has_one_tangent(row));
     }
 }
 
