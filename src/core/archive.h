@@ -57,7 +57,6 @@ public:
 
     /// Whether all that was read was there, and nothing is left.
     bool is_complete() const { return !has_failed_ && left_.empty(); }
-    bool has_failed() const { return has_failed_; }
     void fail() { has_failed_ = true; }
 
 private:

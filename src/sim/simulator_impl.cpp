@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +9,44 @@
 #include "gelatin/error.h"
 
 namespace gelatin {
+namespace {
+
+// A motor that a program has set, or one of its keyframes, which follow it. What is not given is NaN.
+struct MotorRow {
+    std::uint64_t attachment;
+    double time, speed, position, force;
+};
+
+std::vector<MotorRow> rows_of(const std::map<std::size_t, JointMotor>& motors) {
+    std::vector<MotorRow> rows;
+    for (const auto& [attachment, motor] : motors) {
+        const auto add = [&, a = attachment](double time, const auto& of) {
+            const double none = std::nan("");
+            rows.push_back(
+                {a, time, of.speed.value_or(none), of.position.value_or(none), of.force.value_or(none)});
+        };
+        add(0.0, motor);
+        for (const MotorKeyframe& keyframe : motor.keyframes) add(keyframe.time, keyframe);
+    }
+    return rows;
+}
+
+std::map<std::size_t, JointMotor> motors_of(const std::vector<MotorRow>& rows) {
+    std::map<std::size_t, JointMotor> motors;
+    const auto given = [](double value) { return std::isnan(value) ? std::nullopt : std::optional(value); };
+    for (const MotorRow& row : rows) {
+        const auto [motor, is_new] = motors.try_emplace(row.attachment);
+        const auto set = [&](auto& of) {
+            of.speed = given(row.speed);
+            of.position = given(row.position);
+            of.force = given(row.force);
+        };
+        is_new ? set(motor->second) : set(motor->second.keyframes.emplace_back(MotorKeyframe{row.time}));
+    }
+    return motors;
+}
+
+}  // namespace
 
 Simulator::Impl::Impl(const Scene& of, std::shared_ptr<const Model> from, const SimulatorOptions& with,
                       int substeps)
@@ -39,49 +76,6 @@ const ModelObject& Simulator::Impl::body(std::size_t object) const {
         fmt::format("there is no object {}: there are {}, from 0", object, model->body_count()));
 }
 
-namespace {
-
-// Motors by attachment. What is not given is NaN.
-void archive_motors(Archive& archive, std::map<std::size_t, JointMotor>& motors) {
-    using Row = std::array<double, 4>;  // time, speed, position, force
-    const auto row = [](double time, const auto& of) {
-        const double none = std::nan("");
-        return Row{time, of.speed.value_or(none), of.position.value_or(none), of.force.value_or(none)};
-    };
-    const auto set = [](const Row& values, auto& of) {
-        const auto given = [](double value) {
-            return std::isnan(value) ? std::nullopt : std::optional(value);
-        };
-        of.speed = given(values[1]);
-        of.position = given(values[2]);
-        of.force = given(values[3]);
-    };
-    const auto written = std::exchange(motors, {});
-    auto next = written.begin();
-    std::size_t count = written.size();
-    archive.value(count);
-    for (; count > 0 && !archive.has_failed(); --count) {
-        std::size_t attachment = 0;
-        std::vector<Row> rows;
-        if (next != written.end()) {
-            attachment = next->first;
-            rows.push_back(row(0.0, next->second));
-            for (const MotorKeyframe& keyframe : next->second.keyframes)
-                rows.push_back(row(keyframe.time, keyframe));
-            ++next;
-        }
-        archive.value(attachment);
-        archive.list(rows);
-        if (rows.empty()) return archive.fail();
-        JointMotor& motor = motors[attachment];
-        set(rows[0], motor);
-        for (std::size_t k = 1; k < rows.size(); ++k)
-            set(rows[k], motor.keyframes.emplace_back(MotorKeyframe{rows[k][0]}));
-    }
-}
-
-}  // namespace
-
 double Simulator::Impl::time_of(std::size_t handle) const {
     return clock.time() - handle_clocks.delays()[handle];
 }
@@ -108,8 +102,8 @@ Checkpoint Simulator::Impl::checkpoint() const {
     if (arms.programmed().empty() && motors.empty()) return made;
     Archive archive = Archive::that_writes(made.programmed);
     HandleArms(arms).archive(archive);
-    std::map<std::size_t, JointMotor> set = motors;
-    if (!set.empty()) archive_motors(archive, set);
+    std::vector<MotorRow> rows = rows_of(motors);
+    if (!rows.empty()) archive.list(rows);
     return made;
 }
 
@@ -124,8 +118,10 @@ Simulator::Impl::Programmed Simulator::Impl::programmed_of(const Checkpoint& che
     Archive archive = Archive::that_reads(checkpoint.programmed);
     if (!made.arms.archive(archive)) refuse("animated colliders");
     if (archive.is_complete()) return made;
-    archive_motors(archive, made.motors);
+    std::vector<MotorRow> rows;
+    archive.list(rows);
     if (!archive.is_complete()) refuse("attachments");
+    made.motors = motors_of(rows);
     // Those of attachments that were made while it ran, which are not there.
     made.motors.erase(made.motors.lower_bound(scene.attachments.size()), made.motors.end());
     return made;

@@ -25,6 +25,14 @@ std::vector<std::uint32_t> free_ones(const RigidLevel<Real>& rigid, std::span<co
     return some;
 }
 
+// The sum of the sizes of the weights of those that a glued node follows.
+template <class Real>
+Real weight_of_leaders(const ContactRow<Real>& row) {
+    Real sum = 0;
+    for (std::uint32_t k = 1; k < row.count; ++k) sum += std::abs(row.weights[k]);
+    return sum;
+}
+
 // Of what is so far from the body's centre [m].
 template <class Real>
 Vec3<Real> displacement(const Motion& m, const Vec3<Real>& arm) {
@@ -65,14 +73,6 @@ template <class Real>
 void IslandSolve<Real>::find_slips() {
     for_each_index(rows_.count(),
                    [&](std::size_t r) { rows_.slips[r] = slip<Real>(rows_.rows[r], system_.displacements); });
-}
-
-// Of a glued node: the sum of their sizes.
-template <class Real>
-Real weight_of_leaders(const ContactRow<Real>& row) {
-    Real sum = 0;
-    for (std::uint32_t k = 1; k < row.count; ++k) sum += std::abs(row.weights[k]);
-    return sum;
 }
 
 // Of A on its diagonal, but for what glues the node. Leaders of one node go together: of the matrix of their
