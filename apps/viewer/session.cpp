@@ -45,7 +45,9 @@ Session::Session(LoadedScene loaded, Backend backend, const Session* earlier)
       cavities_(simulator_.cavities()) {
     if (earlier == nullptr) return;
     simulator_.go_on_from(earlier->simulator_);
-    attach_as(*earlier);
+    attachments_ = simulator_.attachments();
+    for (const auto& [attachment, motor] : earlier->motors_)
+        if (attachment < attachments_.size()) motors_[attachment] = motor;
     gas_ = earlier->gas_;
     cavities_ = simulator_.cavities();
     held_nodes_ = simulator_.held_nodes();
@@ -241,28 +243,6 @@ void Session::save_gas(Scene& scene) const {
         saved.amount = gas.amount.value_or(saved.amount);
         saved.keyframes.clear();
     }
-}
-
-// What was made, broken and set there. The scene's own attachments are the same.
-void Session::attach_as(const Session& earlier) {
-    const std::span<const Attachment> made = SimulatorInternals::attachments(earlier.simulator_);
-    const std::vector<AttachmentDescription>& descriptions = earlier.scene().attachments;
-    try {
-        for (std::size_t a = 0; a < earlier.attachments_.size(); ++a) {
-            const bool is_own = a < earlier.own_attachments_;
-            if (is_own && made[a].is_broken) simulator_.detach(a);
-            if (!is_own && !made[a].is_broken)
-                simulator_.attach(moved_attachment(descriptions[a], made[a], earlier.model(),
-                                                   earlier.simulator_.positions()));
-        }
-        for (const auto& [attachment, motor] : earlier.motors_) {
-            simulator_.set_motor(attachment, motor);
-            motors_[attachment] = motor;
-        }
-    } catch (const InvalidInput& error) {
-        refusal_ = error.what();
-    }
-    attachments_ = simulator_.attachments();
 }
 
 std::optional<JointMotor> Session::motor(std::size_t attachment) const {

@@ -129,7 +129,6 @@ private:
     void follow_attachments();
     void follow_cavities();
     void change_attachments();
-    void attach_as(const Session& earlier);
     void start_batch(int steps, double now);
     void run_batch(int steps, bool measure);
     void fail(const std::string& problem);

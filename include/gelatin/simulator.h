@@ -192,7 +192,8 @@ public:
     /// Continues from the state of another simulation, with the masses, materials and settings of this one's
     /// own scene. Bodies with the same name and tets, or the same faces if rigid, get the other one's
     /// positions, velocities and drags; other bodies start as their scene says. What programs have set of
-    /// cavities and of vertices of colliders stays, where these have the same names.
+    /// cavities, motors and vertices of colliders stays, where these have the same names; so do attachments
+    /// that they have made, as far as this scene has what is attached.
     void go_on_from(const Simulator& other);
 
     /// The bodies come first in every array of objects, in the order of Scene::objects.
@@ -260,12 +261,12 @@ public:
     void move_pull(std::size_t pull, const glm::dvec3& target);
 
     /// Attaches an object from now on, where everything is now: regions, points and lines are in world
-    /// coordinates at present. Scene::attachments has it, too. Not part of checkpoints; reset() removes it.
+    /// coordinates at present. Scene::attachments has it, too. Part of checkpoints; reset() removes it.
     /// @return its place in Scene::attachments @throws InvalidInput as validate(), and if there is no node
     std::size_t attach(const AttachmentDescription& attachment);
     /// Breaks an attachment for good, until reset(). @throws InvalidInput if there is none
     void detach(std::size_t attachment);
-    /// What the motor of a joint does from now on, until reset(); not part of checkpoints.
+    /// What the motor of a joint does from now on, until reset(). Part of checkpoints.
     /// @throws InvalidInput as validate(), and if there is no such attachment
     void set_motor(std::size_t attachment, const JointMotor& motor);
     /// In the order of Scene::attachments; empty for recordings.

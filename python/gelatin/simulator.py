@@ -287,7 +287,7 @@ class Simulator:
         where: Attached | None = None,
         **fields: Any,
     ) -> int:
-        """Attaches an object from now on, as `Scene.add_attachment` does at the start. `reset` removes it, and checkpoints do not have it.
+        """Attaches an object from now on, as `Scene.add_attachment` does at the start. `reset` removes it. Checkpoints have it.
 
         object: its name, or itself; or a whole `gelatin.Attachment`.
         to, where: regions, points and lines are in the world at present.
@@ -318,7 +318,7 @@ class Simulator:
         position: float | None = None,
         force: float | None = None,
     ) -> None:
-        """What the motor of a joint does from now on, until `reset`; not part of checkpoints. It replaces the motor as a whole.
+        """What the motor of a joint does from now on, until `reset`. Checkpoints have it. It replaces the motor as a whole.
 
         attachment: its place in `attachments`, or its name.
         motor: all of it; or else
@@ -430,6 +430,10 @@ class Simulator:
         Raises InvalidInput for a file of another scene, or a damaged one, and for a frame that is not recorded.
         """
         self._core.load_checkpoint(os.fspath(file), None if frame is None else whole_number("frame", frame))
+        own = len(self.scene.attachments) - self._attached
+        made = self._core.scene().attachments[own:] if self._attached or len(self.attachments()) > own else []
+        self.scene = dataclasses.replace(self.scene, attachments=[*self.scene.attachments[:own], *made])
+        self._attached = len(made)
 
     def record(self, file: str | os.PathLike[str], every: int = 1) -> Recorder:
         """Records the present frame, and in a `with` block every frame, or every so many, and the last one.

@@ -183,19 +183,23 @@ std::map<std::size_t, CavityGas> carried_over(const Model& from, const std::map<
     return carried;
 }
 
+std::optional<std::size_t> find_same(const Scene& from, std::size_t attachment, const Scene& to) {
+    const AttachmentDescription& of = from.attachments[attachment];
+    for (std::size_t a = 0; a < to.attachments.size(); ++a) {
+        const AttachmentDescription& other = to.attachments[a];
+        if (name_of_attachment(other, a) == name_of_attachment(of, attachment) && other.object == of.object &&
+            other.where.index() == of.where.index())
+            return a;
+    }
+    return std::nullopt;
+}
+
 std::map<std::size_t, JointMotor> carried_over(const Scene& from,
                                                const std::map<std::size_t, JointMotor>& motors,
                                                const Scene& to) {
     std::map<std::size_t, JointMotor> carried;
-    for (const auto& [attachment, set] : motors) {
-        const AttachmentDescription& of = from.attachments[attachment];
-        for (std::size_t a = 0; a < to.attachments.size(); ++a) {
-            const AttachmentDescription& other = to.attachments[a];
-            if (name_of_attachment(other, a) == name_of_attachment(of, attachment) &&
-                other.object == of.object && other.where.index() == of.where.index())
-                carried[a] = set;
-        }
-    }
+    for (const auto& [attachment, set] : motors)
+        if (const auto same = find_same(from, attachment, to)) carried[*same] = set;
     return carried;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "model/drive/drags.h"
@@ -33,6 +34,9 @@ std::map<std::size_t, HandleArms::Programmed> carried_over(
 /// The gas of the cavities of `to` that have the name, the object and the law of one of `from`.
 std::map<std::size_t, CavityGas> carried_over(const Model& from, const std::map<std::size_t, CavityGas>& gas,
                                               const Model& to);
+
+/// The attachment of `to` that has the name, the object and the kind of one of `from`.
+std::optional<std::size_t> find_same(const Scene& from, std::size_t attachment, const Scene& to);
 
 /// The motors of those attachments of `to` that have the name, the object and the kind of one of `from`.
 std::map<std::size_t, JointMotor> carried_over(const Scene& from,

@@ -1,12 +1,10 @@
 #include "sim/playback.h"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "core/log.h"
 #include "gelatin/error.h"
-#include "model/assembly/attachments.h"
 #include "model/assembly/build_model.h"
 #include "model/explicit/stability.h"
 #include "sim/backend.h"
@@ -33,13 +31,17 @@ Simulation& Playback::simulation() {
     throw InvalidInput("this simulator plays a recording: nothing in it can be changed");
 }
 
-std::span<const Attachment> Playback::shown_attachments() {
-    if (attachments_) return *attachments_;
-    attachments_.emplace();
+const MadeAttachments& Playback::made_attachments() {
+    if (attachments_ && made_memory_ == attachments_memory_) return *attachments_;
+    made_memory_ = attachments_memory_;
     try {
-        const RecordedFrame& first = RecordingInternals::frame(*recording, *model, 0);
-        attachments_ = make_attachments(scene, *model, first.moment.state.positions);
-        std::erase_if(*attachments_, [](const Attachment& made) { return std::isfinite(made.break_force); });
+        if (!attachments_) {
+            attachments_.emplace();
+            const RecordedFrame& first = RecordingInternals::frame(*recording, *model, 0);
+            attachments_ = MadeAttachments(scene, *model, first.moment.state.positions);
+        }
+        if (attachments_->of_scene == recording->scene().attachments.size())
+            attachments_->restore(made_memory_, scene, *model);
     } catch (const InvalidInput& error) {  // it begins in the middle of a run
         log_warning(std::string("attachments are not drawn: ") + error.what());
     }
@@ -55,6 +57,8 @@ void Playback::show(std::size_t index) {
     drags.go_on_with(frame.moment.drags, frame.moment.drag_targets);
     handle_clocks.go_on_with(frame.moment.delays);
     arms = std::move(programmed.arms);
+    motors = std::move(programmed.motors);
+    attachments_memory_ = std::move(programmed.attachments);
     set_cavity_drives(frame.moment.cavity_drives);
     clock.go_on_from(moment_of(frame.moment));
     watch->begin(frame.moment.state, clock.now());

@@ -22,15 +22,18 @@ struct Playback final : SimulatorInternals::Impl {
     int steps_a_frame() const override { return 1; }
     [[noreturn]] Simulation& simulation() override;
     Playback* playback() override { return this; }
-    /// As of the start, but for those that may have broken: recordings do not say so.
-    std::span<const Attachment> shown_attachments() override;
+    /// As the recorded frame has them, made when they are first asked for.
+    const MadeAttachments& made_attachments() override;
+    std::string attachments_memory() const override { return attachments_memory_; }
 
     /// As of a recorded frame. Measurements of others stay pending.
     void show(std::size_t index);
 
 private:
     std::shared_ptr<PlaybackSolver> frames_;
-    std::optional<std::vector<Attachment>> attachments_;  // made when they are first drawn
+    std::string attachments_memory_;
+    std::optional<MadeAttachments> attachments_;  // as of some frame
+    std::string made_memory_;                     // of that
 };
 
 }  // namespace gelatin

@@ -29,8 +29,7 @@ Simulation::Simulation(const Scene& of, std::shared_ptr<const Model> from, const
         State state = first_state();
         if (move_bodies_apart(state.positions, "at the start")) start_state = std::move(state);
     }
-    attachments = make_attachments(scene, *model, first_state().positions);
-    attachments_at_start = attachments.size();
+    attachments = MadeAttachments(scene, *model, first_state().positions);
     begin();
     for (const std::string& line : check_model(*model, of, clock.step_size())) log_warning(line);
     for (const std::string& line : check_starts(*model, of, first_state().positions)) log_warning(line);
@@ -40,8 +39,7 @@ Simulation::Simulation(const Simulation& like)
     : Impl(like.scene, like.model, like.options, like.clock.substeps()),
       start_state(like.start_state),
       unpinned(like.unpinned),
-      attachments(make_attachments(scene, *model, first_state().positions)),
-      attachments_at_start(attachments.size()) {
+      attachments(scene, *model, first_state().positions) {
     assert(!like.context && like.pins.empty());
     begin();
 }
@@ -68,7 +66,7 @@ BackendSolver Simulation::make_solver(const Scene& of, const std::shared_ptr<con
         return timed(std::shared_ptr(
             cpu::make_solver<float>(from, settings.solver, settings.forces, of.collision, implicit)));
     // Attachments, gas and rigid bodies are in the host's steps alone.
-    if (attachments.empty() && from->cavities.empty() && !from->has_rigid_bodies() &&
+    if (attachments.all.empty() && from->cavities.empty() && !from->has_rigid_bodies() &&
         (!has_contacts(*from, of.collision) || makes_contacts_on_device()))
         return timed(std::shared_ptr(
             gpu::make_solver(from, settings.solver, settings.forces, of.collision, implicit)));
@@ -114,7 +112,7 @@ Simulation::HeldMotions Simulation::move_held_nodes() {
 
 // The watch does not know how much energy they may give.
 std::vector<MotorTarget> Simulation::find_motors() {
-    std::vector<MotorTarget> targets(attachments.size());
+    std::vector<MotorTarget> targets(attachments.all.size());
     for (std::size_t a = 0; a < targets.size(); ++a) {
         const auto set = motors.find(a);
         const AttachmentDescription& description = scene.attachments[a];
@@ -149,9 +147,7 @@ void Simulation::reset() {
     arms.restart();
     motors.clear();
     cavity_gas.clear();
-    attachments.resize(attachments_at_start);
-    scene.attachments.resize(attachments_at_start);
-    for (Attachment& attachment : attachments) attachment.is_broken = false;
+    attachments.restore({}, scene, *model);
     set_attachments();
     take_state(first_state(), {});
 }
@@ -169,7 +165,7 @@ void Simulation::take_state(const State& state, const Moment& moment) {
     standstills.restart();
     solver->write_state(state);
     const std::vector<AttachmentForce> found = solver->attachment_forces();
-    for (std::size_t a = 0; a < found.size(); ++a) attachments[a].is_broken = found[a].is_broken;
+    for (std::size_t a = 0; a < found.size(); ++a) attachments.all[a].is_broken = found[a].is_broken;
     ++revision;
     clock.go_on_from(moment);
     watch->begin(state, clock.now());

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "model/drive/attachment.h"
 #include "model/drive/with_pins.h"
 #include "sim/simulator_impl.h"
 #include "sim/standstills.h"
@@ -18,9 +17,8 @@ struct Simulation final : SimulatorInternals::Impl {
     std::shared_ptr<const Model> unpinned;  // the model without the pins of programs
     std::vector<AddedPin> pins;
     std::vector<Pull> pulls;
-    std::vector<glm::vec3> forces;        // [N], shape [nodes]; empty: none
-    std::vector<Attachment> attachments;  // those of the scene, then those of programs
-    std::size_t attachments_at_start = 0;
+    std::vector<glm::vec3> forces;  // [N], shape [nodes]; empty: none
+    MadeAttachments attachments;
     Standstills standstills;
 
     /// @pre the scene is valid, and the model is what build_model makes of it
@@ -36,7 +34,8 @@ struct Simulation final : SimulatorInternals::Impl {
     int steps_a_frame() const override { return clock.substeps(); }
     Simulation& simulation() override { return *this; }
     Playback* playback() override { return nullptr; }
-    std::span<const Attachment> shown_attachments() override { return attachments; }
+    const MadeAttachments& made_attachments() override { return attachments; }
+    std::string attachments_memory() const override { return attachments.memory(scene); }
 
     State first_state() const;
     /// Continues from this state. Pending measurements belong to the old one.
@@ -44,8 +43,8 @@ struct Simulation final : SimulatorInternals::Impl {
     /// Bodies that never pass through each other have to be apart. @return whether any was moved
     /// @throws InvalidInput if they cannot be moved apart
     bool move_bodies_apart(std::vector<glm::vec4>& positions, const char* when) const;
-    /// Gives the solver the attachments.
-    void set_attachments();
+    /// Gives the solver the attachments. @param had_some whether it had any before
+    void set_attachments(bool had_some = true);
     /// @throws InvalidInput if there is none of this number
     void require_attachment(std::size_t attachment) const;
     /// @throws InvalidInput if there is none of this number

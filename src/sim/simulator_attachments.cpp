@@ -25,20 +25,24 @@ std::vector<AttachmentStatus> Simulator::Impl::attachment_states() const {
 }
 
 void Simulation::require_attachment(std::size_t attachment) const {
-    if (attachment >= attachments.size())
-        throw InvalidInput(
-            fmt::format("there is no attachment {}: there are {}, from 0", attachment, attachments.size()));
+    if (attachment >= attachments.all.size())
+        throw InvalidInput(fmt::format("there is no attachment {}: there are {}, from 0", attachment,
+                                       attachments.all.size()));
 }
 
-void Simulation::set_attachments() {
-    if (!attachments.empty() || !solver->attachment_forces().empty()) solver->set_attachments(attachments);
+void Simulation::set_attachments(bool had_some) {
+    if (!had_some && !attachments.all.empty() && solver.uses_gl()) {
+        rebuild(scene, unpinned, pins);  // for steps on the host
+    } else if (!attachments.all.empty() || !solver->attachment_forces().empty()) {
+        solver->set_attachments(attachments.all);
+    }
 }
 
 void Simulation::look_for_broken() {
     const std::vector<AttachmentForce> found = solver->attachment_forces();
     for (std::size_t a = 0; a < found.size(); ++a) {
-        if (!found[a].is_broken || std::exchange(attachments[a].is_broken, true)) continue;
-        log_note(fmt::format("{} broke at {:.4g} s, by {:.4g} N", attachments[a].name, clock.time(),
+        if (!found[a].is_broken || std::exchange(attachments.all[a].is_broken, true)) continue;
+        log_note(fmt::format("{} broke at {:.4g} s, by {:.4g} N", attachments.all[a].name, clock.time(),
                              glm::length(found[a].force)));
     }
 }
@@ -49,21 +53,11 @@ std::vector<AttachmentStatus> Simulator::attachments() const {
 
 std::size_t Simulator::attach(const AttachmentDescription& attachment) {
     Simulation& d = impl_->simulation();
-    Scene next = d.scene;
-    next.attachments.push_back(attachment);
-    validate(next);
     const auto host = d.keep_host_state_of_solver();
-    Attachment made =
-        make_attachment(attachment, d.attachments.size(), next, *d.model, d.solver->read_state().positions);
-    const bool needs_host = d.attachments.empty() && d.solver.uses_gl();
-    d.attachments.push_back(std::move(made));
-    d.scene.attachments.push_back(attachment);
-    if (needs_host) {
-        d.rebuild(d.scene, d.unpinned, d.pins);
-    } else {
-        d.set_attachments();
-    }
-    return d.attachments.size() - 1;
+    const bool had_some = !d.attachments.all.empty();
+    d.attachments.add(attachment, d.solver->read_state().positions, d.scene, *d.model);
+    d.set_attachments(had_some);
+    return d.attachments.all.size() - 1;
 }
 
 void Simulator::set_motor(std::size_t attachment, const JointMotor& motor) {
@@ -79,7 +73,7 @@ void Simulator::detach(std::size_t attachment) {
     Simulation& d = impl_->simulation();
     d.require_attachment(attachment);
     const auto host = d.keep_host_state_of_solver();
-    d.attachments[attachment].is_broken = true;
+    d.attachments.all[attachment].is_broken = true;
     d.set_attachments();
 }
 

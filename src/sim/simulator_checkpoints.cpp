@@ -1,6 +1,7 @@
 // Continuing from other moments: of a file, or of another simulation.
 #include <cmath>
 
+#include "gelatin/error.h"
 #include "sim/carry_over.h"
 #include "sim/checkpoint.h"
 #include "sim/recording/recording_internals.h"
@@ -43,19 +44,32 @@ void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional
     Checkpoint checkpoint = read_moment(file, frame, *d.model);
     Simulator::Impl::Programmed programmed = d.programmed_of(checkpoint, file);
     const auto host = d.keep_host_state_of_solver();
+    const bool had_some = !d.attachments.all.empty();
+    try {
+        d.attachments.restore(programmed.attachments, d.scene, *d.model);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(
+            {file.string(), 0, {}, {}, std::string("does not fit the scene: ") + error.what()});
+    }
+    d.set_attachments(had_some);
     hold_as_here(*d.model, checkpoint.state.positions);
     d.drags.go_on_with(checkpoint.drags, checkpoint.drag_targets);
     d.handle_clocks.go_on_with(checkpoint.delays);
     d.arms = std::move(programmed.arms);
     d.motors = std::move(programmed.motors);
+    d.motors.erase(d.motors.lower_bound(d.attachments.all.size()), d.motors.end());
     d.set_cavity_drives(checkpoint.cavity_drives);
     d.take_state(checkpoint.state, d.moment_of(checkpoint));
 }
 
 void Simulator::go_on_from(const Simulator& other) {
     Simulation& d = impl_->simulation();
-    const Impl& from = *other.impl_;
+    Impl& from = *other.impl_;
     const auto host = d.keep_host_state_of_solver();
+    const bool had_some = !d.attachments.all.empty();
+    d.attachments.go_on_from(from.made_attachments(), from.scene, *from.model, d.first_state(), d.scene,
+                             *d.model);
+    d.set_attachments(had_some);
     const double time = from.clock.time();
     const int frame = static_cast<int>(time * d.scene.simulation.frame_rate + 1e-6);
     const State state = carried_over(*from.model, from.solver->read_state(), *d.model, d.first_state());

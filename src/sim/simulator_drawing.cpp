@@ -12,7 +12,7 @@ namespace gelatin {
 std::vector<OverlayLine> Simulator::Impl::overlay_lines(const Overlays& overlays) {
     const std::vector<glm::vec4> positions = solver->read_state().positions;
     std::vector<OverlayLine> lines;
-    if (overlays.attachments) lines = attachment_lines(shown_attachments(), *model, positions);
+    if (overlays.attachments) lines = attachment_lines(made_attachments().all, *model, positions);
     if (!overlays.bones) return lines;
     for (std::size_t h = 0; h < model->handles.size(); ++h) {
         if (!is_held(model->handles[h], time_of(h), clock.step_size())) continue;

@@ -99,17 +99,20 @@ Checkpoint Simulator::Impl::checkpoint() const {
     Checkpoint made{now.frame,          now.time,        solver->read_state(),
                     drags.drags(),      drags.targets(), handle_clocks.delays(),
                     set_cavity_drives()};
-    if (arms.programmed().empty() && motors.empty()) return made;
+    const std::string attached = attachments_memory();
+    if (arms.programmed().empty() && motors.empty() && attached.empty()) return made;
     Archive archive = Archive::that_writes(made.programmed);
     HandleArms(arms).archive(archive);
     std::vector<MotorRow> rows = rows_of(motors);
-    if (!rows.empty()) archive.list(rows);
+    archive.list(rows);
+    std::vector<char> bytes(attached.begin(), attached.end());
+    archive.list(bytes);
     return made;
 }
 
 Simulator::Impl::Programmed Simulator::Impl::programmed_of(const Checkpoint& checkpoint,
                                                            const std::filesystem::path& file) const {
-    Programmed made{HandleArms(model), {}};
+    Programmed made{HandleArms(model), {}, {}};
     if (checkpoint.programmed.empty()) return made;
     const auto refuse = [&](const char* others) {
         throw InvalidInput(
@@ -117,13 +120,14 @@ Simulator::Impl::Programmed Simulator::Impl::programmed_of(const Checkpoint& che
     };
     Archive archive = Archive::that_reads(checkpoint.programmed);
     if (!made.arms.archive(archive)) refuse("animated colliders");
-    if (archive.is_complete()) return made;
+    if (archive.is_complete()) return made;  // by an earlier version
     std::vector<MotorRow> rows;
+    std::vector<char> attached;
     archive.list(rows);
+    if (!archive.is_complete()) archive.list(attached);
     if (!archive.is_complete()) refuse("attachments");
     made.motors = motors_of(rows);
-    // Those of attachments that were made while it ran, which are not there.
-    made.motors.erase(made.motors.lower_bound(scene.attachments.size()), made.motors.end());
+    made.attachments.assign(attached.begin(), attached.end());
     return made;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gelatin/simulator.h"
@@ -16,6 +17,7 @@
 #include "sim/backend_solver.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
+#include "sim/made_attachments.h"
 #include "sim/overlay_source.h"
 #include "sim/run_clock.h"
 #include "sim/simulator_internals.h"
@@ -78,8 +80,9 @@ struct Simulator::Impl {
     virtual int steps_a_frame() const = 0;
     /// For what changes a run. @throws InvalidInput if a recording is played
     virtual Simulation& simulation() = 0;
-    /// Those that are drawn.
-    virtual std::span<const Attachment> shown_attachments() = 0;
+    virtual const MadeAttachments& made_attachments() = 0;
+    /// Of these.
+    virtual std::string attachments_memory() const = 0;
     /// Of attachments and bones.
     std::vector<OverlayLine> overlay_lines(const Overlays& overlays);
     /// Null: it simulates.
@@ -108,10 +111,11 @@ struct Simulator::Impl {
     /// As Checkpoint::cavity_drives.
     std::vector<double> set_cavity_drives() const;
     void set_cavity_drives(const std::vector<double>& drives);
-    /// Arms and motors that programs have set, from Checkpoint::programmed.
+    /// Arms and motors that programs have set, and their attachments, from Checkpoint::programmed.
     struct Programmed {
         HandleArms arms;
         std::map<std::size_t, JointMotor> motors;
+        std::string attachments;  // MadeAttachments::memory
     };
     /// @throws InvalidInput naming the file, if it does not fit
     Programmed programmed_of(const Checkpoint& checkpoint, const std::filesystem::path& file) const;

@@ -12,7 +12,7 @@ const Model& SimulatorInternals::model(const Simulator& simulator) {
 }
 
 std::span<const Attachment> SimulatorInternals::attachments(const Simulator& simulator) {
-    return simulator.impl_->shown_attachments();
+    return simulator.impl_->made_attachments().all;
 }
 
 std::shared_ptr<const Model> SimulatorInternals::share_model(const Simulator& simulator) {

@@ -85,6 +85,23 @@ def test_what_falls_is_caught_where_it_is():
     np.testing.assert_allclose(sim["lower"].center, caught, atol=0.02)
 
 
+def test_checkpoints_have_what_programs_attached(tmp_path):
+    scene = two_boxes(attach=False)
+    sim, other = simulate(scene), simulate(scene)
+    sim.advance(10)
+    sim.attach("lower", where=gelatin.AttachedPoint(tuple(sim["lower"].center)), name="joint")
+    sim.save_checkpoint(tmp_path / "a.ckpt")
+    other.load_checkpoint(tmp_path / "a.ckpt")
+    assert [attachment.name for attachment in other.scene.attachments] == ["joint"] and not scene.attachments
+    for each in sim, other:
+        each.advance(30)
+    np.testing.assert_array_equal(other.positions, sim.positions)
+    other.reset()
+    other.save_checkpoint(tmp_path / "b.ckpt")
+    sim.load_checkpoint(tmp_path / "b.ckpt")
+    assert sim.attachments() == other.attachments() == sim.scene.attachments == other.scene.attachments == []
+
+
 def test_opengl_steps_them_too(needs_gl):
     scenes = two_boxes(), two_boxes(attach=False)
     sims = [gelatin.Simulator(scene, backend="gl") for scene in scenes]

@@ -183,6 +183,14 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
     return read_scene(text, file, {});
 }
 
+std::vector<AttachmentDescription> parse_attachments(const std::string& text) {
+    toml::table document = parse(text, {});
+    TableReader reader(document, "", {});
+    auto attachments = reader.tables("attachment");
+    reader.finish();
+    return read_attachments(std::move(attachments));
+}
+
 Scene override_scene(const Scene& scene, const std::vector<std::string>& overrides) {
     if (overrides.empty()) {
         validate(scene);

@@ -354,8 +354,13 @@ std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
     }
     for (const ColliderDescription& collider : scene.colliders)
         add("[[collider]]", table_of(collider, folder));
-    for (const AttachmentDescription& attachment : scene.attachments)
-        add("[[attachment]]", table_of(attachment));
+    return text + to_toml(scene.attachments);
+}
+
+std::string to_toml(const std::vector<AttachmentDescription>& attachments) {
+    std::string text;
+    for (const AttachmentDescription& attachment : attachments)
+        text += "\n[[attachment]]\n" + table_of(attachment).lines();
     return text;
 }
 
