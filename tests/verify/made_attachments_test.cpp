@@ -1,0 +1,164 @@
+// Attachments that programs make while a scene runs, in checkpoints, recordings and other simulations.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "gelatin/error.h"
+#include "gelatin/recording.h"
+#include "support/gl_fixture.h"
+#include "verify/support/attached_boxes.h"
+#include "verify/support/measured_run.h"
+
+namespace gelatin::made_attachments_test {
+namespace {
+
+using namespace test;
+
+// Two boxes, of which a program glues one to the other after a while, and hangs it on a thread: where nodes
+// are then, these attachments can only be made from what a checkpoint says.
+class MadeAttachments : public ::testing::Test {
+protected:
+    MadeAttachments() {
+        scene_ = scene_of(jelly(1e4, 0.05));
+        scene_.objects = {box("a", {0.2, 0.2, 0.2}, {0.0, 0.0, 0.0}),
+                          box("b", {0.2, 0.2, 0.2}, {0.0, -0.206, 0.0})};
+        scene_.objects[0].pins = {above(0.09)};
+        scene_.objects[1].velocity = glm::dvec3(0.3, 0.0, 0.0);
+    }
+    void SetUp() override { std::filesystem::create_directory(folder_); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    static void attach_and_go_on(MeasuredRun& run) {
+        run.simulator().attach({.name = "glue", .object = "b", .to = "a"});
+        const glm::dvec3 at = run.center(1);
+        run.advance(0.2);
+        run.simulator().attach({.name = "thread",
+                                .object = "b",
+                                .where = AttachedDistance{at, at + glm::dvec3(0.1, 0.3, 0.0)},
+                                .compliance = 1e-4,
+                                .break_force = 1e3,
+                                .spring = JointSpring{.stiffness = 20.0}});
+        run.simulator().attach({.name = "cut", .object = "a", .where = AttachedPoint{run.center(0)}});
+        run.simulator().detach(2);
+        run.advance(0.2);
+    }
+    static void expect_same(MeasuredRun& run, MeasuredRun& other, double most) {
+        const auto a = run.simulator().attachments(), b = other.simulator().attachments();
+        ASSERT_EQ(a.size(), 3u);
+        ASSERT_EQ(b.size(), 3u);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(b[k].name, a[k].name);
+            EXPECT_EQ(b[k].is_broken, k == 2);
+        }
+        for (const std::size_t object : {0u, 1u})
+            EXPECT_LE(glm::distance(other.center(object), run.center(object)), most) << object;
+    }
+
+    Scene scene_;
+    std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "made_attachments";
+};
+
+TEST_F(MadeAttachments, GoOnFromACheckpoint) {
+    MeasuredRun run(scene_), other(scene_);
+    attach_and_go_on(run);
+    run.simulator().save_checkpoint(folder_ / "a.gelatin");
+    other.simulator().load_checkpoint(folder_ / "a.gelatin");
+    for (MeasuredRun* each : {&run, &other}) each->advance(0.5);
+    expect_same(run, other, 0.0);
+    EXPECT_GT(run.center(1).y, -0.3) << "it hangs";
+    EXPECT_EQ(other.simulator().scene().attachments[1].spring->stiffness, 20.0);
+    other.simulator().reset();
+    EXPECT_TRUE(other.simulator().attachments().empty());
+    EXPECT_TRUE(other.simulator().scene().attachments.empty());
+}
+
+TEST_F(MadeAttachments, AreInRecordings) {
+    MeasuredRun run(scene_), other(scene_);
+    RecordingWriter writer(folder_ / "a.gel", run.simulator());
+    writer.write(run.simulator());
+    attach_and_go_on(run);
+    writer.write(run.simulator());
+    writer.finish();
+    other.simulator().load_checkpoint(folder_ / "a.gel");
+    for (MeasuredRun* each : {&run, &other}) each->advance(0.1);
+    expect_same(run, other, 1e-4);
+
+    Simulator player(std::make_shared<const Recording>(folder_ / "a.gel"));
+    EXPECT_EQ(SimulatorInternals::attachments(player).size(), 0u);
+    player.step();
+    const std::span<const Attachment> shown = SimulatorInternals::attachments(player);
+    ASSERT_EQ(shown.size(), 3u);
+    EXPECT_EQ(shown[1].name, "thread");
+    EXPECT_TRUE(shown[2].is_broken);
+    player.save_checkpoint(folder_ / "b.gelatin");
+    MeasuredRun last(scene_);
+    last.simulator().load_checkpoint(folder_ / "b.gelatin");
+    last.advance(0.1);
+    expect_same(run, last, 1e-4);
+}
+
+// As far as they can be made there.
+TEST_F(MadeAttachments, GoOnInAnotherSimulation) {
+    MeasuredRun run(scene_);
+    attach_and_go_on(run);
+    Scene changed = scene_;
+    changed.objects.push_back(box("c", {0.1, 0.1, 0.1}, {2.0, 0.0, 0.0}));
+    MeasuredRun other(changed);
+    other.simulator().go_on_from(run.simulator());
+    ASSERT_EQ(other.simulator().attachments().size(), 2u) << "but for the one that was cut";
+    EXPECT_EQ(other.simulator().attachments()[1].name, "thread");
+    for (MeasuredRun* each : {&run, &other}) each->advance(0.1);
+    EXPECT_LT(glm::distance(other.center(1), run.center(1)), 1e-4);
+    Scene one = scene_;
+    one.objects.pop_back();
+    MeasuredRun alone(one);
+    alone.simulator().go_on_from(run.simulator());
+    EXPECT_TRUE(alone.simulator().attachments().empty());
+}
+
+// What is damaged, or of another scene, changes nothing.
+TEST_F(MadeAttachments, OfOtherScenesAreRefused) {
+    MeasuredRun run(scene_);
+    attach_and_go_on(run);
+    run.simulator().save_checkpoint(folder_ / "a.gelatin");
+    Scene changed = scene_;
+    changed.attachments = {{.name = "glue", .object = "b", .to = "a"}};
+    MeasuredRun other(changed);
+    const glm::dvec3 start = other.center(1);
+    try {
+        other.simulator().load_checkpoint(folder_ / "a.gelatin");
+        FAIL() << "it has another attachment";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("a.gelatin"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("other attachments"), std::string::npos);
+    }
+    EXPECT_EQ(other.center(1), start);
+    EXPECT_EQ(other.simulator().attachments().size(), 1u);
+}
+
+class MadeAttachmentsOnGl : public GlTest {};
+// Its scene has none, so the device made the steps.
+TEST_F(MadeAttachmentsOnGl, GoOnFromACheckpoint) {
+    const auto file = std::filesystem::path(::testing::TempDir()) / "attached_on_gl.gelatin";
+    Scene scene = hanging_row();
+    scene.attachments.clear();
+    scene.objects[0].pins = {above(1.09)};
+    scene.collision.response = CollisionResponse::restore;
+    SimulatorOptions on_gl;
+    on_gl.backend = Backend::gl;
+    on_gl.use_current_context = true;
+    MeasuredRun cpu(scene), gl(scene, on_gl), next(scene, on_gl);
+    cpu.simulator().attach({.object = "middle", .to = "top"});
+    cpu.advance(0.2);
+    cpu.simulator().save_checkpoint(file);
+    gl.simulator().load_checkpoint(file);
+    next.simulator().go_on_from(cpu.simulator());
+    for (MeasuredRun* each : {&cpu, &gl, &next}) each->advance(0.2);
+    EXPECT_LT(glm::distance(gl.center(1), cpu.center(1)), 1e-5);
+    EXPECT_LT(glm::distance(next.center(1), cpu.center(1)), 1e-4);
+    std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace gelatin::made_attachments_test
