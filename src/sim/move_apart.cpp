@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "cpu/collision/collision.h"
-#include "cpu/contact/planes.h"
 #include "model/corners.h"
 
 namespace gelatin {
@@ -131,8 +130,10 @@ private:
 
     double height_over(const Collider& plane, std::uint32_t object) const {
         const Range nodes = model_->objects[object].shape_nodes();
-        const auto own = std::span(positions_).subspan(nodes.first, nodes.count);
-        return static_cast<double>(cpu::least_height<float>(own, glm::vec3(plane.center)) - plane.center.w);
+        float least = std::numeric_limits<float>::infinity();
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            least = std::min(least, glm::dot(glm::vec3(plane.center), glm::vec3(positions_[n])));
+        return static_cast<double>(least - plane.center.w);
     }
 
     // It goes no deeper into a plane than it is.

@@ -1,5 +1,5 @@
 // The law of a contact (docs/contact.md), and friction.
-// CPU twin: src/cpu/implicit/contact_row.h, src/cpu/contact/contact_law.h.
+// CPU twin: src/cpu/implicit/contact_row.h.
 #include "layouts/contact_tuning.glsl"
 #include "layouts/step_rows.glsl"
 

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <span>
 
-#include "cpu/contact/contact_law.h"
 #include "cpu/contact/tuning.h"
+#include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
 #include "model/spring_packing.h"
 
@@ -65,25 +66,23 @@ struct ContactRow {
     /// Of the colliders, where the first side is a plane.
     std::uint32_t plane() const { return static_cast<std::uint32_t>(key >> 31 & 0x7FFFFFFFu); }
     Real gap_at(const Vec3<Real>& s) const { return gap + glm::dot(normal, s); }
-    /// The law of a gap (contact_law.h), from the least one inwards linear: so a solver may pass through
-    /// [N].
+    /// The law of a gap (docs/contact.md): a spring that is stiff from the start, a barrier below half of the
+    /// reach, and from the least gap inwards linear, so that a solver may pass through [N].
     Real force_of(Real g) const {
         if (!(g < reach)) return Real(0);
         const Real least = kLeastGap * reach;
-        const Real force = contact_force(std::max(g, least), reach, stiffness);
-        return g < least ? force + contact_hessian(least, reach, stiffness) * (least - g) : force;
+        return g < least ? law_force(least) + law_slope(least) * (least - g) : law_force(g);
     }
     Real slope_of(Real g) const {  ///< minus its derivative [N/m]
-        return g < reach ? contact_hessian(std::max(g, kLeastGap * reach), reach, stiffness) : Real(0);
+        return g < reach ? law_slope(std::max(g, kLeastGap * reach)) : Real(0);
     }
     /// Of the law and of what friction holds with [J].
     Real energy(const Vec3<Real>& s) const {
         Real energy = 0;
         if (const Real g = gap_at(s); g < reach) {
             const Real least = kLeastGap * reach, beyond = std::max(least - g, Real(0));
-            energy = contact_energy(std::max(g, least), reach, stiffness) +
-                     beyond * (contact_force(least, reach, stiffness) +
-                               Real(0.5) * beyond * contact_hessian(least, reach, stiffness));
+            energy = law_energy(std::max(g, least)) +
+                     beyond * (law_force(least) + Real(0.5) * beyond * law_slope(least));
         }
         if (!(limit > Real(0)) || drives) return energy;
         const Vec3<Real> q = held(s);
@@ -114,6 +113,21 @@ struct ContactRow {
     Vec3<Real> force(const Vec3<Real>& s) const {
         const Vec3<Real> along = pressing(s) * normal;
         return limit > Real(0) ? along - held(s) : along;
+    }
+
+private:
+    // Of gaps from the least one to the reach.
+    bool is_barrier(Real g) const { return g < Real(0.5) * reach; }
+    Real law_energy(Real g) const {
+        return stiffness * (is_barrier(g) ? Real(0.125) * reach * reach *
+                                                (Real(1) + Real(2) * std::log(reach / (Real(2) * g)))
+                                          : Real(0.5) * (reach - g) * (reach - g));
+    }
+    Real law_force(Real g) const {
+        return stiffness * (is_barrier(g) ? Real(0.25) * reach * reach / g : reach - g);
+    }
+    Real law_slope(Real g) const {
+        return stiffness * (is_barrier(g) ? Real(0.25) * reach * reach / (g * g) : Real(1));
     }
 };
 

@@ -95,7 +95,6 @@ public:
     /// When the last step has ended [J].
     double contact_energy() const { return energy_.in_contacts(); }
 
-    const StepSystem<Real>& system() const { return system_; }
     /// What all solves so far have cost.
     const SolveCounts& solve_counts() const { return solve_counts_; }
 

@@ -230,7 +230,7 @@ double IslandSolve<Real>::precondition(const Update& update, bool& is_enough) {
 // product_ = A p, rows among it. @return p . A p
 template <class Real>
 double IslandSolve<Real>::multiply_direction() {
-    ++counts_.products;
+    ++counts_.multiplied_nodes;
     const std::vector<Vec4<Real>>& p = system_.elastic.displacements;
     rows_.set_forces(
         [&](std::size_t r) { return rows_.tangents[r].stiffness * relative<Real>(rows_.rows[r], p); });
@@ -310,16 +310,13 @@ std::vector<Motion> IslandSolve<Real>::gather_base() const {
 }
 
 template <class Real>
-void IslandSolve<Real>::rigid_newton(double tolerance) {
+void IslandSolve<Real>::rigid_newton() {
     if (rigid_.count() == 0 || rows_.count() == 0) return;
     std::vector<Motion> begun(rigid_.count(), Motion::Zero());
     for (std::size_t k = 0; k < bodies_.size(); ++k)
         if (places_[k] != kNoNode && system_.model_->objects[bodies_[k]].is_rigid)
             begun[places_[k]] = system_.rigid.rigid_part(bodies_[k], system_.inertia, system_.displacements);
-    const auto found = rigid_.run(gather_base(), begun, tolerance);
-    counts_.rigid_rounds += found.rounds;
-    counts_.line_searches += found.line_searches;
-    for_displacements(found.motions,
+    for_displacements(rigid_.run(gather_base(), begun),
                       [&](std::size_t n, const Vec3<Real>& d) { system_.displacements[n] += d; });
 }
 
@@ -354,7 +351,6 @@ bool IslandSolve<Real>::newton_step(int most_iterations, double forcing, bool is
         },
         [&](const ObjectPieces::Piece&, const glm::dvec2& more) { sum += more; });
     const auto part = static_cast<Real>(rows_.count() == 0 ? 1.0 : rows_.line_search(changes, sum.x, sum.y));
-    if (part < Real(1)) ++counts_.line_searches;
     nodes_.for_each([&](std::uint32_t n) {
         if (system_.inertia[n] == Real(0)) return;
         system_.displacements[n] += part * system_.step_[n];
@@ -367,7 +363,7 @@ bool IslandSolve<Real>::newton_step(int most_iterations, double forcing, bool is
 // With the product of the displacements begun.
 template <class Real>
 void IslandSolve<Real>::find_base_residual() {
-    ++counts_.products;
+    ++counts_.multiplied_nodes;
     nodes_.for_each_piece([&](const ObjectPieces::Piece& piece) {
         system_.elastic.multiply(piece.range, system_.product_);
         for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) {
@@ -388,7 +384,7 @@ SolveCounts IslandSolve<Real>::run() {
         nodes_.for_each([&](std::uint32_t n) {
             system_.base_[n] = system_.loads[n] - system_.inertia[n] * system_.displacements[n];
         });
-        rigid_newton(tuning::kBalance);
+        rigid_newton();
         const bool deforms = std::any_of(bodies_.begin(), bodies_.end(), [&](std::uint32_t o) {
             return !system_.model_->objects[o].is_rigid;
         });
@@ -407,10 +403,10 @@ SolveCounts IslandSolve<Real>::run() {
              ++k)
             rows_.find_tangents();
     }
-    rigid_newton(tuning::kBalance);
+    rigid_newton();
     std::uint64_t nodes = 0;
     for (const std::uint32_t o : bodies_) nodes += system_.model_->objects[o].nodes.count;
-    counts_.multiplied_nodes = static_cast<std::uint64_t>(counts_.products) * nodes;
+    counts_.multiplied_nodes *= nodes;
     return counts_;
 }
 

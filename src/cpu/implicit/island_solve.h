@@ -38,7 +38,7 @@ private:
     double precondition(const Update& update, bool& is_enough);
     double multiply_direction();
     int conjugate_gradients(int count, double forcing);
-    void rigid_newton(double tolerance);
+    void rigid_newton();
     bool newton_step(int most_iterations, double forcing, bool is_first);
     template <class Use>
     void for_displacements(std::span<const Motion> motions, const Use& use) const;

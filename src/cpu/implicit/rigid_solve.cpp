@@ -303,11 +303,8 @@ bool RigidSolve<Real>::is_balanced(double tolerance, std::span<const Motion> for
 // The limits of friction stay as they are until bodies are nearly in balance (Tresca's friction), since what
 // presses before that has little to do with what will.
 template <class Real>
-typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base,
-                                                        std::span<const Motion> begun, double tolerance) {
-    Result result;
-    result.motions.assign(count(), Motion::Zero());
-    std::vector<Motion> all(begun.begin(), begun.end());
+std::vector<Motion> RigidSolve<Real>::run(std::vector<Motion> base, std::span<const Motion> begun) {
+    std::vector<Motion> motions(count(), Motion::Zero()), all(begun.begin(), begun.end());
     rotate(all);
     std::vector<Vec3<Real>> changes(rows_.count());
     const auto forces = [&] {
@@ -316,12 +313,12 @@ typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base
         add_rows(sums);
         return sums;
     };
-    for (; result.rounds < tuning::kMostRounds; ++result.rounds) {
+    for (int round = 0; round < tuning::kMostRounds; ++round) {
         std::vector<Motion> step = forces();
         if (is_balanced(tuning::kNearBalance, step)) {
             rows_.set_limits();
             step = forces();
-            if (result.rounds > 0 && is_balanced(tolerance, step)) break;
+            if (round > 0 && is_balanced(tuning::kBalance, step)) break;
         }
         rows_.find_tangents();
         find_turning();
@@ -335,9 +332,8 @@ typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base
             turning += glm::dot(rotation(step[b]), turning_[b] * rotation(step[b]));
         }
         const double part = rows_.line_search(changes, dot(step, base), dot(step, resistance) + turning);
-        if (part < 1.0) ++result.line_searches;
         for (std::size_t b = 0; b < count(); ++b) {
-            result.motions[b] += part * step[b];
+            motions[b] += part * step[b];
             all[b] += part * step[b];
             base[b] -= part * resistance[b];
         }
@@ -346,7 +342,7 @@ typename RigidSolve<Real>::Result RigidSolve<Real>::run(std::vector<Motion> base
         });
         rotate(all);
     }
-    return result;
+    return motions;
 }
 
 template class RigidSolve<float>;

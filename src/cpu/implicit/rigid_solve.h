@@ -48,14 +48,9 @@ public:
         return relative(row, arms_[row], motions);
     }
 
-    struct Result {
-        std::vector<Motion> motions;
-        int rounds = 0, line_searches = 0;
-    };
     /// Newton's method; slips follow. @param base forces of all but rows, where it begins @param begun
-    /// motions of rigid bodies that displacements have already; others do not count @param tolerance forces
-    /// that may be left on a body, as a part of what presses it
-    Result run(std::vector<Motion> base, std::span<const Motion> begun, double tolerance);
+    /// motions of rigid bodies that displacements have already; others do not count @return motions
+    std::vector<Motion> run(std::vector<Motion> base, std::span<const Motion> begun);
 
 private:
     // The places of its bodies, or kNoNode; of a body with itself none: its rows hardly resist its motion.

@@ -11,10 +11,7 @@
 namespace gelatin::cpu {
 
 SolveCounts& SolveCounts::operator+=(const SolveCounts& more) {
-    products += more.products;
     iterations += more.iterations;
-    rigid_rounds += more.rigid_rounds;
-    line_searches += more.line_searches;
     multiplied_nodes += more.multiplied_nodes;
     return *this;
 }

@@ -17,11 +17,8 @@ namespace gelatin::cpu {
 
 /// What solving a step has cost, all islands together.
 struct SolveCounts {
-    int products = 0;                    ///< with the matrix of all nodes of an island
     int iterations = 0;                  ///< of conjugate gradients
-    int rigid_rounds = 0;                ///< Newton's method on rigid motions
-    int line_searches = 0;               ///< that shortened a step
-    std::uint64_t multiplied_nodes = 0;  ///< of the products, each time anew
+    std::uint64_t multiplied_nodes = 0;  ///< of products with the matrix, each time anew
 
     SolveCounts& operator+=(const SolveCounts& more);
 };
