@@ -196,6 +196,10 @@ public:
     /// that they have made, as far as this scene has what is attached.
     void go_on_from(const Simulator& other);
 
+    /// The nodes of a body that are in a region now, by their indices in the body, ascending.
+    /// @throws InvalidInput for an object or a region that is not allowed
+    std::vector<std::uint32_t> nodes_in(std::size_t object, const Region& region) const;
+
     /// The bodies come first in every array of objects, in the order of Scene::objects.
     /// @throws InvalidInput if no body has this name, naming those that there are
     std::size_t object_index(std::string_view name) const;

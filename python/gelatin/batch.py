@@ -55,13 +55,29 @@ class Batch:
 
         Worlds that have diverged stand still until they are reset.
 
+        Callbacks of worlds are called, world by world, after each step of all.
+
         Raises Diverged, naming a world that diverged in these steps, after all others have made theirs. `diverged` has all.
         """
-        self._core.step(whole_number("count", count))
+        count = whole_number("count", count)
+        listening = [world for world in self._simulators if world._step_callbacks or world._frame_callbacks]
+        if not listening:
+            self._core.step(count)
+            return
+        for _ in range(count):
+            before = [(world.frame, world.time) for world in listening]
+            try:
+                self._core.step(1)
+            finally:
+                for world, (frame, time) in zip(listening, before):
+                    if world.time != time:
+                        world._call(world._step_callbacks)
+                    if world.frame != frame:
+                        world._call(world._frame_callbacks)
 
     def advance(self, frames: int = 1) -> None:
         """Advances every world by `frames` frames. Raises as `step`."""
-        self._core.step(whole_number("frames", frames) * self._first.substeps)
+        self.step(whole_number("frames", frames) * self._first.substeps)
 
     def run(self, frames: int, progress: bool = False) -> None:
         """As `advance`. progress: shows a bar, if the package tqdm is installed."""
@@ -131,7 +147,7 @@ class Batch:
 
     @property
     def masses(self) -> Array:
-        """[kg], the same in all worlds: shape (nodes,)."""
+        """[kg], shape (nodes,): those of the first world, and of all but for `set_material`."""
         return self._first.masses
 
     @property

@@ -40,6 +40,12 @@ class Body:
         #: whether it has no tets, and moves as a whole
         self.is_rigid: bool = fields["is_rigid"]
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Body) and (other._simulator, other._index) == (self._simulator, self._index)
+
+    def __hash__(self) -> int:
+        return hash((id(self._simulator), self._index))
+
     def __repr__(self) -> str:
         return f"<gelatin.Body '{self.name}': {counted(len(self), 'node')}>"
 
@@ -128,8 +134,10 @@ class Body:
     # What can be changed between steps. Each call raises InvalidInput for values that are not allowed.
 
     def nodes_in(self, region: Region) -> npt.NDArray[np.int64]:
-        """The nodes that are in a region now, by their indices in the body, ascending."""
-        return np.flatnonzero(_is_in(region, self.positions.astype(np.float64)))
+        """The nodes that are in a region now, by their indices in the body, ascending. Raises InvalidInput as for a scene's."""
+        if not isinstance(region, (BoxRegion, SphereRegion, HalfSpaceRegion)):
+            raise wrong_type("region", region, "a BoxRegion, a SphereRegion or a HalfSpaceRegion")
+        return np.array(self._simulator._core.nodes_in(self._index, region), np.int64)
 
     def set_positions(self, positions: npt.ArrayLike) -> None:
         """Puts the nodes somewhere else [m], shape (nodes, 3), with the velocities that they have.
@@ -205,16 +213,6 @@ class Body:
         if chosen.ndim != 1 or chosen.dtype.kind not in "iu" or chosen.min() < 0 or chosen.max() >= len(self):
             raise InvalidInput(f"nodes must be a region, indices below {len(self)}, or a mask of the shape ({len(self)},)")
         return chosen.astype(np.int64)
-
-
-def _is_in(region: Region, points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
-    if isinstance(region, BoxRegion):
-        return np.asarray(((points >= np.asarray(region.min)) & (points <= np.asarray(region.max))).all(axis=1))
-    if isinstance(region, SphereRegion):
-        return np.asarray(np.linalg.norm(points - np.asarray(region.center), axis=1) <= region.radius)
-    if not isinstance(region, HalfSpaceRegion):
-        raise wrong_type("region", region, "a BoxRegion, a SphereRegion or a HalfSpaceRegion")
-    return np.asarray(points @ np.asarray(region.normal, np.float64) <= region.offset)
 
 
 def _mean(values: Array, masses: Array) -> npt.NDArray[np.float64]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from .arguments import vector
+from .arguments import number, vector
 
 if TYPE_CHECKING:
     from .simulator import Simulator
@@ -26,10 +26,8 @@ class Hand:
         self._simulator = simulator
         #: among those of the simulator, shape (nodes,)
         self.nodes = nodes
-        #: of all springs together [N/m]
-        self.stiffness = stiffness
-        #: damping divided by stiffness [s]
-        self.damping_time = damping_time
+        self._stiffness = stiffness
+        self._damping_time = damping_time
         places = simulator.positions[nodes].astype(np.float64)
         self._target = places.mean(axis=0)
         self._arms = places - self._target
@@ -50,6 +48,26 @@ class Hand:
         self._target = vector("target", target)
         if self in self._simulator._hands:
             self._simulator._core.move_pull(self._simulator._hands.index(self), self._target.tolist())
+
+    @property
+    def stiffness(self) -> float:
+        """Of all springs together [N/m]. Set it at any time."""
+        return self._stiffness
+
+    @stiffness.setter
+    def stiffness(self, stiffness: float) -> None:
+        self._stiffness = number("stiffness", stiffness, may_be_zero=False)
+        self._set_all()
+
+    @property
+    def damping_time(self) -> float:
+        """Damping divided by stiffness [s]. Set it at any time."""
+        return self._damping_time
+
+    @damping_time.setter
+    def damping_time(self, damping_time: float) -> None:
+        self._damping_time = number("damping_time", damping_time)
+        self._set_all()
 
     @property
     def force(self) -> npt.NDArray[np.float64]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, Union, cast
 
 from . import _gelatin
-from .arguments import texts
+from .arguments import texts, wrong_type
 from .errors import InvalidInput
 from .objects import Attached, Attachment, Camera, Collider, Object, Rigid
 from .shapes import File, Plane, Shape, Vector
@@ -256,10 +256,18 @@ def load(
     Raises InvalidInput, naming file, line, key, value and what is allowed.
     """
     if isinstance(overrides, Mapping):
-        overrides = [f"{key}={_toml(value)}" for key, value in overrides.items()]
+        overrides = [f"{key}={_toml(key, value)}" for key, value in overrides.items()]
     return cast(Scene, _gelatin.load(os.fspath(file), texts("overrides", overrides)))
 
 
-def _toml(value: Any) -> str:
-    """Numbers, truth values, texts and lists of these in TOML, which writes them like JSON."""
-    return json.dumps(value.tolist() if hasattr(value, "tolist") else value)
+def _toml(key: str, value: Any) -> str:
+    """Numbers, truth values, texts, paths and lists of these in TOML, of which texts are written as in JSON."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(key, each) for each in value) + "]"
+    if isinstance(value, (str, os.PathLike)):
+        return json.dumps(os.fspath(value), ensure_ascii=False)
+    if isinstance(value, (bool, int, float)):
+        return str(value).lower() if isinstance(value, bool) else repr(value)
+    raise wrong_type(key, value, "a number, a truth value, a text, a path or a list of these")

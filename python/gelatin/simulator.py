@@ -93,6 +93,10 @@ class Simulator:
     def __len__(self) -> int:
         return len(self._objects)
 
+    def __contains__(self, body: object) -> bool:
+        """Whether it has an object of this name, or this body."""
+        return body in self._objects if isinstance(body, str) else isinstance(body, Body) and body._simulator is self
+
     # Time
 
     def step(self, count: int = 1) -> None:
@@ -212,7 +216,7 @@ class Simulator:
 
     @property
     def masses(self) -> Array:
-        """[kg], shape (nodes,), float32. Never changes."""
+        """[kg], shape (nodes,), float32. `set_material` alone changes them."""
         return self._core.masses()
 
     @property
@@ -267,7 +271,7 @@ class Simulator:
         """Where the vertices of a collider with `AnimationByProgram` are to be when a frame's time from now has passed.
 
         They go there at even speed, and stay there until another call: call it before each `advance(1)`. `reset` puts them back
-        to where the shape has them. Checkpoints do not have them: set them again after `load_checkpoint`.
+        to where the shape has them. Checkpoints have them.
 
         collider: its name.
         vertices: those of its shape, in its order, before scale, rotation, position and keyframes place it [m], shape
@@ -364,15 +368,18 @@ class Simulator:
     def cavities(self) -> list[dict[str, Any]]:
         """For each cavity, object by object: `name`, `object`, `volume` [m^3] and `pressure` above the ambient one [Pa].
 
-        They are those of the end of the last step.
+        Volumes are those of the end of the last step, and pressures with what `set_cavity` has set since.
         """
         return self._core.cavities()
 
     def _cavity_of(self, cavity: Union[int, str], object: str | None) -> int:
         """Its place in `cavities`. Raises InvalidInput if there is none of this name, or several."""
-        if not isinstance(cavity, str):
-            return whole_number("cavity", cavity)
         all_of_them = [(status["object"], status["name"]) for status in self.cavities()]
+        if not isinstance(cavity, str):
+            place = whole_number("cavity", cavity)
+            if object is not None and place < len(all_of_them) and all_of_them[place][0] != object:
+                raise InvalidInput(f"cavity = {place}: is in '{all_of_them[place][0]}', not in '{object}'")
+            return place
         found = [k for k, (owner, name) in enumerate(all_of_them) if name == cavity and object in (None, owner)]
         if len(found) != 1:
             known = ", ".join(f"'{name}' of '{owner}'" for owner, name in all_of_them) or "none"
@@ -419,7 +426,10 @@ class Simulator:
     # Files
 
     def save_checkpoint(self, file: str | os.PathLike[str]) -> None:
-        """Saves the exact state, to continue with the same numbers. The file is written completely or not at all. Raises SystemError."""
+        """Saves the exact state, to continue with the same numbers, but for pins of `Body.pin`, which it does not have.
+
+        The file is written completely or not at all. Raises SystemError.
+        """
         self._core.save_checkpoint(os.fspath(file))
 
     def load_checkpoint(self, file: str | os.PathLike[str], frame: int | None = None) -> None:
@@ -477,6 +487,20 @@ class Player(Simulator):
     def show(self, frame: int) -> None:
         """Goes to a recorded frame, by its number. Raises InvalidInput if it is not recorded."""
         self._core.show_recorded(whole_number("frame", frame))
+
+    def advance(self, frames: int = 1) -> None:
+        """Goes on by recorded frames, to the last one at most, and calls back after each."""
+        for _ in range(whole_number("frames", frames)):
+            before = self.frame, self.time
+            self._core.step(1)
+            if (self.frame, self.time) == before:
+                break
+            self._call(self._step_callbacks)
+            self._call(self._frame_callbacks)
+
+    def step(self, count: int = 1) -> None:
+        """The same: a step is a recorded frame."""
+        self.advance(whole_number("count", count))
 
     def reset(self) -> None:
         """Returns to the first frame."""

@@ -75,6 +75,13 @@ void bind_changes(nb::class_<PythonSimulator>& simulator) {
         .def("set_velocities", setter(&Simulator::set_velocities), nb::arg("object"), nb::arg("velocities"))
         .def("set_forces", setter(&Simulator::set_forces), nb::arg("object"), nb::arg("forces"))
         .def(
+            "nodes_in",
+            [](PythonSimulator& self, std::size_t object, nb::handle source) {
+                const Region region = region_of(source);
+                return self.use([&](Simulator& s) { return s.nodes_in(object, region); });
+            },
+            nb::arg("object"), nb::arg("region"))
+        .def(
             "pin",
             [](PythonSimulator& self, std::size_t object, const std::vector<std::uint32_t>& nodes) {
                 use_released(self, [&](Simulator& s) { s.pin(object, nodes); });

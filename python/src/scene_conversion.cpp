@@ -48,6 +48,10 @@ JointMotor motor_of(nb::handle source) {
     return read_as<JointMotor>(source, "motor");
 }
 
+Region region_of(nb::handle source) {
+    return read_as<Region>(source, "region");
+}
+
 nb::object python_scene(const Scene& scene) {
     return to_python(scene);
 }

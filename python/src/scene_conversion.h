@@ -10,11 +10,12 @@ namespace gelatin::python {
 /// @throws nanobind's TypeError for a value of another type; InvalidInput for a word that is not allowed
 Scene scene_of(nanobind::handle source);
 
-/// The same for gelatin.Material, gelatin.Camera, gelatin.Attachment and gelatin.JointMotor.
+/// The same for gelatin.Material, gelatin.Camera, gelatin.Attachment, gelatin.JointMotor and regions.
 Material material_of(nanobind::handle source);
 CameraDescription camera_of(nanobind::handle source);
 AttachmentDescription attachment_of(nanobind::handle source);
 JointMotor motor_of(nanobind::handle source);
+Region region_of(nanobind::handle source);
 
 /// An instance of gelatin.Scene.
 nanobind::object python_scene(const Scene& scene);

@@ -122,6 +122,7 @@ struct Model {
     std::vector<glm::vec4>
         velocities;             ///< at the start: xyz [m/s], damping time [s] of the material, shape [nodes]
     std::vector<float> masses;  ///< [kg], > 0, pinned nodes too, shape [nodes]
+    std::vector<std::uint32_t> node_objects;  ///< the object of each, shape [nodes]
 
     std::vector<Spring> springs;
     HalfSprings half_springs;
@@ -161,7 +162,7 @@ struct Model {
     bool has_damping() const;
 };
 
-/// The object of each node, shape [nodes].
+/// Model::node_objects
 std::vector<std::uint32_t> objects_of_nodes(const Model& model);
 
 /// Of each node its place in SurfaceParts::nodes, or kNoNode inside a body.

@@ -18,6 +18,15 @@ struct Batch::Impl {
     std::vector<Simulator> worlds;
     std::vector<std::uint8_t> diverged;
 
+    // Also what has diverged by steps of its own.
+    bool has_diverged(std::size_t world) const {
+        try {
+            worlds[world].check();
+        } catch (const Diverged&) {
+            return true;
+        }
+        return false;
+    }
     // Runs work(world) for each world, beside each other. A thread that waits within a world must not begin
     // another one meanwhile: it would keep the first one waiting.
     template <class Work>
@@ -71,12 +80,11 @@ const Simulator& Batch::operator[](std::size_t world) const {
 void Batch::step(std::size_t count) {
     std::vector<std::exception_ptr> errors(size());
     impl_->for_each_world([&](std::size_t w) {
-        if (impl_->diverged[w] != 0) return;
+        if (impl_->has_diverged(w)) return;
         try {
             for (std::size_t s = 0; s < count; ++s) impl_->worlds[w].step();
         } catch (const Diverged&) {
             errors[w] = std::current_exception();
-            impl_->diverged[w] = 1;
         }
     });
     for (std::size_t w = 0; w < errors.size(); ++w)
@@ -92,7 +100,6 @@ void Batch::reset(std::span<const std::uint8_t> mask) {
     impl_->for_each_world([&](std::size_t w) {
         if (mask[w] == 0) return;
         impl_->worlds[w].reset();
-        impl_->diverged[w] = 0;
     });
 }
 
@@ -101,6 +108,7 @@ void Batch::reset() {
 }
 
 const std::vector<std::uint8_t>& Batch::diverged() const {
+    for (std::size_t w = 0; w < size(); ++w) impl_->diverged[w] = impl_->has_diverged(w) ? 1 : 0;
     return impl_->diverged;
 }
 

@@ -87,7 +87,10 @@ void write_checkpoint(const std::filesystem::path& file, const Model& model, con
         append(*array, arrays);
         ++count;
     }
-    const std::size_t handles = is_any_away(checkpoint) ? model.handles.size() : 0;
+    const std::size_t handles =
+        is_any_away(checkpoint)
+            ? std::max({checkpoint.drags.size(), checkpoint.drag_targets.size(), checkpoint.delays.size()})
+            : 0;
     if (handles > 0) {
         append(for_handles(checkpoint.drags, handles), arrays);
         append(for_handles(checkpoint.drag_targets, handles), arrays);

@@ -16,8 +16,8 @@ struct Checkpoint {
     int frame = 0;
     double time = 0.0;  ///< [s]
     State state;
-    std::vector<Drag> drags = {}, drag_targets = {};  ///< shape [handles], or none
-    std::vector<double> delays = {};                  ///< of handles [s], shape [handles], or none
+    std::vector<Drag> drags = {}, drag_targets = {};  ///< of the scene's handles, or none
+    std::vector<double> delays = {};                  ///< of these [s], or none
     /// What programs have given cavities (Cavity::drive_at), NaN: nothing; shape [Model::cavities], or none.
     std::vector<double> cavity_drives = {};
     std::string programmed = {};  ///< Simulator::Impl::programmed_of; empty: nothing

@@ -104,6 +104,9 @@ double EnergyBudget::most_for(const Account& now) const {
 void EnergyBudget::note(const Account& now) {
     given_by_loads_ = work_of_loads(now.time);
     latest_ = now;
+    // In an impact contacts have what was lost, and give it back.
+    const double given = std::max(0.0, start_.potential - now.potential);
+    latest_.energy = std::max(now.energy, start_.energy + given + given_by_loads_);
 }
 
 void EnergyBudget::restart(const Account& start) {

@@ -110,16 +110,17 @@ Simulation::HeldMotions Simulation::move_held_nodes() {
     return motions;
 }
 
-// The watch does not know how much energy they may give.
+// The watch does not know how much energy they may give, nor what springs of joints hold.
 std::vector<MotorTarget> Simulation::find_motors() {
     std::vector<MotorTarget> targets(attachments.all.size());
     for (std::size_t a = 0; a < targets.size(); ++a) {
         const auto set = motors.find(a);
         const AttachmentDescription& description = scene.attachments[a];
-        if (set == motors.end() && !description.motor) continue;
+        const bool is_driven = set != motors.end() || description.motor;
+        if (is_driven || description.spring) watch->note_hand(clock.time() + clock.step_size());
+        if (!is_driven) continue;
         targets[a] =
             motor_at(description, set != motors.end() ? set->second : *description.motor, clock.time());
-        watch->note_hand(clock.time() + clock.step_size());
     }
     return targets;
 }

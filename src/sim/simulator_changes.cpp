@@ -66,15 +66,17 @@ void Simulator::set_velocities(std::size_t object, std::span<const glm::vec3> ve
     check_values(body, "velocities", velocities);
     const auto host = d.keep_host_state_of_solver();
     State state = d.solver->read_state();
+    const std::vector<glm::vec4> before = state.velocities;
     const bool has_earlier = !state.earlier_velocities.empty();
     for (std::uint32_t n = 0; n < nodes.count; ++n) {
         const std::uint32_t node = nodes.first + n;
         if (state.positions[node].w == 0.0f) continue;
         state.velocities[node] = glm::vec4(velocities[n], state.velocities[node].w);
-        // Solvers take the change since the step before for what gravity has done.
-        if (has_earlier) state.earlier_velocities[node] = state.velocities[node];
     }
     if (body.is_rigid) move_rigidly(body, state);
+    // Solvers take the change since the step before for what gravity and forces have done.
+    for (std::uint32_t n = nodes.first; n < nodes.end() && has_earlier; ++n)
+        state.earlier_velocities[n] += glm::vec4(glm::vec3(state.velocities[n] - before[n]), 0.0f);
     d.take_state(state, d.clock.now());
 }
 

@@ -4,6 +4,7 @@
 #include "gelatin/error.h"
 #include "sim/carry_over.h"
 #include "sim/checkpoint.h"
+#include "sim/own_handles.h"
 #include "sim/recording/recording_internals.h"
 #include "sim/simulation.h"
 
@@ -41,7 +42,7 @@ void Simulator::save_checkpoint(const std::filesystem::path& file) const {
 
 void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional<int> frame) {
     Simulation& d = impl_->simulation();
-    Checkpoint checkpoint = read_moment(file, frame, *d.model);
+    Checkpoint checkpoint = read_moment(file, frame, *d.unpinned);
     Simulator::Impl::Programmed programmed = d.programmed_of(checkpoint, file);
     const auto host = d.keep_host_state_of_solver();
     const bool had_some = !d.attachments.all.empty();
@@ -53,8 +54,9 @@ void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional
     }
     d.set_attachments(had_some);
     hold_as_here(*d.model, checkpoint.state.positions);
-    d.drags.go_on_with(checkpoint.drags, checkpoint.drag_targets);
-    d.handle_clocks.go_on_with(checkpoint.delays);
+    d.drags.go_on_with(with_own_handles(*d.model, checkpoint.drags, d.drags.drags()),
+                       with_own_handles(*d.model, checkpoint.drag_targets, d.drags.targets()));
+    d.handle_clocks.go_on_with(with_own_handles(*d.model, checkpoint.delays, d.handle_clocks.delays()));
     d.arms = std::move(programmed.arms);
     d.motors = std::move(programmed.motors);
     d.motors.erase(d.motors.lower_bound(d.attachments.all.size()), d.motors.end());

@@ -7,6 +7,7 @@
 
 #include "core/log.h"
 #include "gelatin/error.h"
+#include "sim/own_handles.h"
 
 namespace gelatin {
 namespace {
@@ -96,8 +97,12 @@ const StateCopies& Simulator::Impl::copied_state() const {
 
 Checkpoint Simulator::Impl::checkpoint() const {
     const Moment now = clock.now();
-    Checkpoint made{now.frame,          now.time,        solver->read_state(),
-                    drags.drags(),      drags.targets(), handle_clocks.delays(),
+    Checkpoint made{now.frame,
+                    now.time,
+                    solver->read_state(),
+                    of_own_handles(*model, drags.drags()),
+                    of_own_handles(*model, drags.targets()),
+                    of_own_handles(*model, handle_clocks.delays()),
                     set_cavity_drives()};
     const std::string attached = attachments_memory();
     if (arms.programmed().empty() && motors.empty() && attached.empty()) return made;

@@ -1,7 +1,9 @@
 #include "sim/simulator_internals.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "sim/own_handles.h"
 #include "sim/playback.h"
 #include "sim/simulation.h"
 
@@ -40,7 +42,16 @@ Simulator SimulatorInternals::another(const Simulator& like) {
 RecordedFrame SimulatorInternals::recorded_frame(const Simulator& simulator) {
     const Impl& d = *simulator.impl_;
     const auto host = d.keep_host_state_of_solver();
-    return {d.checkpoint(), d.solver->contact_forces(), d.solver->holding_forces()};
+    RecordedFrame frame{d.checkpoint(), d.solver->contact_forces(), d.solver->holding_forces()};
+    for (auto* of_handles : {&frame.holds.by_handle, &frame.holds.torques})
+        *of_handles = of_own_handles(*d.model, *of_handles);
+    return frame;
+}
+
+Scene SimulatorInternals::own_scene(const Simulator& simulator) {
+    Scene own = simulator.scene();
+    own.attachments.resize(std::min(own.attachments.size(), simulator.impl_->made_attachments().of_scene));
+    return own;
 }
 
 }  // namespace gelatin

@@ -42,6 +42,9 @@ struct SimulatorInternals {
     static Simulator make(std::shared_ptr<const Recording> recording, std::shared_ptr<const Model> model,
                           const SimulatorOptions& options);
 
+    /// Without what programs have attached.
+    static Scene own_scene(const Simulator& simulator);
+
     /// The present frame, for a recording.
     static RecordedFrame recorded_frame(const Simulator& simulator);
 

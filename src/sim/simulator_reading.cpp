@@ -2,7 +2,9 @@
 #include <utility>
 
 #include "gelatin/error.h"
+#include "model/region.h"
 #include "model/scene/names.h"
+#include "model/scene/validate_bodies.h"
 #include "sim/body_pose.h"
 #include "sim/forces.h"
 #include "sim/simulator_impl.h"
@@ -21,6 +23,13 @@ IndexRange public_range(const Range& range) {
 Counts Simulator::counts() const {
     const Model& m = *impl_->model;
     return {m.body_count(), m.positions.size(), m.springs.size(), m.faces.size(), m.tets.size()};
+}
+
+std::vector<std::uint32_t> Simulator::nodes_in(std::size_t object, const Region& region) const {
+    check_region(region);
+    const Range& nodes = impl_->body(object).nodes;
+    const std::span<const glm::vec4> own = positions().subspan(nodes.first, nodes.count);
+    return find_inside(region, {own.begin(), own.end()});
 }
 
 std::size_t Simulator::object_index(std::string_view name) const {

@@ -202,3 +202,44 @@ def test_motors_that_are_wrong_are_named():
         with pytest.raises(error) as caught:
             wrong()
         assert str(caught.value) == message
+
+
+def test_bodies_and_regions():
+    scene = two_boxes()
+    sim = simulate(scene)
+    assert "lower" in sim and sim["lower"] in sim and "roof" not in sim and sim["lower"] == sim["lower"] != sim["upper"]
+    assert sim["lower"] not in simulate(scene) and len({sim["lower"], sim["lower"]}) == 1
+    body = sim["lower"]
+    everything = body.nodes_in(gelatin.BoxRegion((-9, -9, -9), (9, 9, 9)))
+    np.testing.assert_array_equal(everything, np.arange(len(body)))
+    # The normal of any length, as in scenes.
+    half = gelatin.HalfSpaceRegion((0, 2, 0), float(body.center[1]))
+    np.testing.assert_array_equal(np.flatnonzero(body.positions[:, 1] <= np.float32(body.center[1])), body.nodes_in(half))
+    for region, problem in (
+        (gelatin.HalfSpaceRegion((0, 0, 0), 1), "region.plane"),
+        (gelatin.SphereRegion((0, 1, 0), float("nan")), "region.radius"),
+        (gelatin.SphereRegion((0, 1, 0), -1), "region.radius"),
+    ):
+        for use in body.nodes_in, body.pin, body.hold:
+            with pytest.raises(gelatin.InvalidInput, match=problem):
+                use(region)
+    with pytest.raises(TypeError, match="center"):
+        body.nodes_in(gelatin.SphereRegion((0, 1), 1))
+
+
+def test_hands_can_become_stiffer():
+    sim = simulate(two_boxes())
+    hand = sim["lower"].hold([0], stiffness=100.0)
+    hand.target = hand.target + (0.1, 0, 0)
+    soft = hand.force[0]
+    hand.stiffness = 1000.0
+    assert hand.force[0] == pytest.approx(10 * soft)
+    sim.advance(1)
+    other = simulate(two_boxes())
+    stiff = other["lower"].hold([0], stiffness=1000.0, damping_time=hand.damping_time)
+    stiff.target = stiff.target + (0.1, 0, 0)
+    other.advance(1)
+    np.testing.assert_allclose(sim.positions, other.positions, atol=1e-6)
+    with pytest.raises(gelatin.InvalidInput, match="stiffness"):
+        hand.stiffness = -1.0
+    assert hand.stiffness == 1000.0

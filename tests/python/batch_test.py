@@ -122,3 +122,27 @@ def test_messages_come_once(caplog):
     caplog.clear()
     gelatin.Batch(scene, 8)
     assert once > 0 and len(caplog.records) == once
+
+
+def test_worlds_call_back_and_record(tmp_path):
+    batch = gelatin.Batch(two_balls(), 2)
+    called = []
+    batch[0].on_frame(lambda world: called.append(world.frame))
+    steps = []
+    batch[1].on_step(lambda world: steps.append(world.time))
+    with batch[0].record(tmp_path / "run.gel"):
+        batch.advance(3)
+    assert called == [1, 2, 3] and len(steps) == 3 * batch.substeps
+    assert gelatin.play(tmp_path / "run.gel").frames == [0, 1, 2, 3]
+
+
+def test_knows_of_worlds_that_diverged_by_themselves():
+    batch = gelatin.Batch(exploding_bar(), 2)
+    with pytest.raises(gelatin.Diverged):
+        batch[1].step(10**6)
+    time = batch[1].time
+    assert batch.diverged.tolist() == [False, True]
+    batch.step(2)
+    assert batch[1].time == time and batch[0].time > 0
+    batch.reset(np.array([False, True]))
+    assert not batch.diverged.any()

@@ -57,6 +57,8 @@ def test_programs_set_it():
     for name, what in (("air", "is the name of 2 cavities"), ("water", "is the name of no cavity")):
         with pytest.raises(gelatin.InvalidInput, match=what):
             sim.set_cavity(name, pressure=1.0)
+    with pytest.raises(gelatin.InvalidInput, match="is in 'box 1', not in 'box 2'"):
+        sim.set_cavity(0, object="box 2", pressure=1.0)
     with pytest.raises(gelatin.InvalidInput, match="needs a pressure"):
         sim.set_cavity(0)
     with pytest.raises(gelatin.InvalidInput, match="only for law"):

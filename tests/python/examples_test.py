@@ -83,3 +83,20 @@ def test_snippets_of_the_page(tmp_path, monkeypatch, needs_gl):
         line = page[: page.index(snippet)].count("\n")
         exec(compile("\n" * line + snippet, "docs/python.md", "exec"), names)
     assert (tmp_path / "ball.png").stat().st_size > 1000
+
+
+COOKBOOK = Path("docs/cookbook.md").read_text(encoding="utf-8")
+RECIPES = [code for code in re.findall(r"```python\n(.*?)```", COOKBOOK, re.DOTALL) if "--8<--" not in code]
+
+
+@pytest.mark.parametrize("recipe", range(len(RECIPES)))
+def test_recipes_of_the_cookbook(recipe, tmp_path, monkeypatch, needs_gl):
+    """Each is a program of its own."""
+    line = COOKBOOK[: COOKBOOK.index(RECIPES[recipe])].count("\n")
+    (tmp_path / "scenes").symlink_to(Path("scenes").resolve())
+    subprocess.run([sys.executable, "scripts/make_animated_meshes", tmp_path], check=True)
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    exec(compile("\n" * line + RECIPES[recipe], "docs/cookbook.md", "exec"), names)
+    if "ball" in names and "lift" in names:
+        assert names["ball"].name == "ball" and names["simulator"]["ball"].center[1] > 0.5  # it is held

@@ -97,3 +97,21 @@ def test_what_is_no_recording_is_refused(tmp_path):
         gelatin.play(file)
     with pytest.raises(gelatin.SystemError, match="run.gel: cannot be written: No such file or directory"):
         gelatin.Simulator(falling_ball(), backend="cpu").record(tmp_path / "none" / "run.gel")
+
+
+def test_callbacks_of_a_player_are_called_for_recorded_frames(tmp_path):
+    scene = falling_ball()
+    scene.simulation.substeps = 3
+    simulator = gelatin.Simulator(scene, backend="cpu")
+    with simulator.record(tmp_path / "run.gel"):
+        simulator.advance(4)
+    player = gelatin.play(tmp_path / "run.gel")
+    frames, steps = [], []
+    player.on_frame(lambda sim: frames.append(sim.frame))
+    player.on_step(lambda sim: steps.append(sim.frame))
+    player.advance(1)
+    assert player.frame == 1
+    player.step(2)
+    assert player.frame == 3
+    player.run()
+    assert frames == steps == [1, 2, 3, 4]

@@ -193,6 +193,26 @@ def test_overrides():
         gelatin.load("scenes/bounce.toml", 7)
 
 
+def test_overrides_take_what_programs_have(tmp_path):
+    file = tmp_path / "a.toml"
+    file.write_text('[[material]]\nname = "jelly"\n[[object]]\nname = "ball"\nshape = { sphere = 0.1 }\n')
+    changed = gelatin.load(
+        file,
+        {
+            "object.ball.position": [np.float32(1), np.int64(2), 3],
+            "object.ball.name": "\N{GRINNING FACE}",
+            "simulation.frame_rate": np.float64(50),
+        },
+    )
+    assert changed.objects[0].position == (1, 2, 3) and changed.objects[0].name == "\N{GRINNING FACE}"
+    assert changed.simulation.frame_rate == 50
+    with pytest.raises(gelatin.InvalidInput, match="frame_rate = nan"):
+        gelatin.load(file, {"simulation.frame_rate": float("nan")})
+    with pytest.raises(TypeError, match="simulation.frame_rate"):
+        gelatin.load(file, {"simulation.frame_rate": {"a": 1}})
+
+
+
 def test_vectors_may_be_arrays():
     scene = scene_with_everything()
     scene.objects[0].position = np.array([1, 2, 3], dtype=np.float32)

@@ -180,6 +180,29 @@ TEST_F(RecordingTest, RunsContinueFromAnyFrame) {
 }
 
 // As after a process was killed: whatever was written last, what is before opens.
+// Those of a program are not in the file, which has all else.
+TEST_F(RecordingTest, PinsOfProgramsDoNotHarmIt) {
+    Scene scene = test::falling_balls();
+    Simulator simulator(scene, on_cpu());
+    RecordingWriter writer(file(), simulator);
+    writer.write(simulator);
+    simulator.pin(0, std::vector<std::uint32_t>{0, 1, 2});
+    for (int frame = 0; frame < 3; ++frame) {
+        simulator.advance_frame();
+        writer.write(simulator);
+    }
+    writer.finish();
+    Simulator player(open());
+    for (std::size_t k = 0; k < 4; ++k) player.show_recorded(k);
+    EXPECT_EQ(player.read_frame().positions, simulator.read_frame().positions);
+    Simulator free(scene, on_cpu());
+    free.load_checkpoint(file());
+    EXPECT_GT(free.positions()[0].w, 0.0f) << "not held";
+    simulator.load_checkpoint(file(), 1);
+    EXPECT_EQ(simulator.positions()[0].w, 0.0f) << "held, as it is here";
+    EXPECT_EQ(simulator.frame(), 1);
+}
+
 TEST_F(RecordingTest, WhatIsCutOffOpensUpToTheLastWholeFrame) {
     const std::vector<HostFrame> frames = record(balls_that_meet(), 40);
     const std::string whole = read_file(file());

@@ -141,6 +141,24 @@ TEST_P(SimulatorStateTest, PositionsAndVelocitiesCanBeSet) {
     EXPECT_LT(glm::distance(places_of(simulator, 1)[0], places[0]), 1e-4f);
 }
 
+// Programs that control bodies set velocities before each frame: what gravity does goes on.
+TEST_P(SimulatorStateTest, VelocitiesThatAreSetToWhatTheyAreChangeNothing) {
+    Scene scene = two_boxes(glm::dvec3(0.0, -9.81, 0.0));
+    Simulator simulator = make(scene);
+    const float start = center_of(simulator, 0).y;
+    constexpr int kFrames = 20;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        std::vector<glm::vec3> velocities;
+        for (std::size_t n = 0; n < places_of(simulator, 0).size(); ++n)
+            velocities.emplace_back(simulator.velocities()[n]);
+        simulator.set_velocities(0, velocities);
+        simulator.advance_frame();
+    }
+    const double time = kFrames / 60.0;
+    EXPECT_NEAR(static_cast<double>(simulator.velocities()[0].y), -9.81 * time, 0.01);
+    EXPECT_NEAR(static_cast<double>(center_of(simulator, 0).y - start), -0.5 * 9.81 * time * time, 0.04);
+}
+
 TEST_P(SimulatorStateTest, ForcesActUntilOthersAreSet) {
     Simulator simulator = make_floating();
     const ObjectInfo left = simulator.object(0);

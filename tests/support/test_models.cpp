@@ -193,6 +193,7 @@ Model make_model(const Net& net) {
     object.springs = {0, static_cast<std::uint32_t>(model.springs.size())};
     object.rest_volume = 1.0;
     model.objects.push_back(object);
+    model.node_objects = objects_of_nodes(model);
     model.half_springs = pack_half_springs(model.node_count(), model.springs);
     model.incidence = make_incidence(model.node_count(), model.springs);
     return model;

@@ -354,6 +354,22 @@ TEST(Attachments, PartsOfAJointPressEachOther) {
     EXPECT_TRUE(press);
 }
 
+// In the middle of an impact, of which nothing is left then.
+TEST(Attachments, WhatAHandTouchesMayFallAsleep) {
+    Scene scene = scene_of(jelly(1e6), 0.0);
+    scene.objects = {box("a", {0.3, 0.3, 0.3}, {0.0, 0.152, 0.0}, 60)};
+    ColliderDescription floor, hand;
+    floor.shape = PlaneCollider{};
+    hand.shape = BoxShape{{0.1, 0.1, 0.1}};
+    hand.position = {-0.202, 0.152, 0.0};
+    hand.keyframes = {{0.0}, {0.7, {-0.06, 0.033, 0.0}}, {1.4}};
+    scene.colliders = {floor, hand};
+    scene.attachments = {{.object = "a", .where = AttachedPoint{{-0.15, 0.152, 0.0}}}};
+    MeasuredRun run(scene);
+    run.advance(2.5);
+    EXPECT_EQ(run.overlaps(), 0u);
+}
+
 // Attached bodies come to rest together, sleep, and are woken together.
 TEST(Attachments, SleepAndWakeTogether) {
     Scene scene = scene_of(jelly(1e5, 0.1));

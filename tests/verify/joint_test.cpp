@@ -197,6 +197,50 @@ TEST(Joints, MotorsGoOnFromACheckpoint) {
     EXPECT_LT(other.joint(0).position, -glm::radians(40.0)) << "it falls";
 }
 
+TEST(Joints, MotorsOfAnyForceStopAtTheirLimits) {
+    Scene hinge = bar_on_hinge(), rail = box_on_rail({1.0, 0.0, 0.0});
+    hinge.attachments[0].limits = {0.0, 90.0};
+    hinge.attachments[0].motor = JointMotor{.speed = 120.0};
+    rail.attachments[0].limits = {-0.2, 1.0};
+    rail.attachments[0].motor = JointMotor{.speed = 0.5, .position = -1.0};
+    MeasuredRun door(hinge), slider(rail);
+    for (int frame = 0; frame < 90; ++frame) {
+        for (MeasuredRun* run : {&door, &slider}) run->advance(1.0 / 60.0);
+        ASSERT_LT(door.joint(0).position, glm::radians(90.1)) << frame;
+        ASSERT_GT(slider.joint(0).position, -0.2002) << frame;
+    }
+    EXPECT_NEAR(door.joint(0).position, glm::radians(90.0), 1e-3);
+    EXPECT_NEAR(slider.joint(0).position, -0.2, 1e-4);
+    EXPECT_LT(std::abs(door.joint(0).speed), 1e-3);
+}
+
+// What they learnt of how fast they can brake was not that they cannot move at all.
+TEST(Joints, MotorsGoOnAfterTheyWereTooWeak) {
+    Scene stalled = box_on_rail({1.0, 0.0, 0.0});
+    ColliderDescription wall;
+    wall.shape = BoxShape{{0.2, 1.0, 1.0}};
+    wall.position = {0.35, 0.0, 0.0};
+    stalled.colliders = {wall};
+    stalled.attachments[0].motor = JointMotor{.speed = 0.5,
+                                              .position = 1.0,
+                                              .force = 100.0,
+                                              .keyframes = {{.time = 1.5, .position = -1.0, .force = 1e4}}};
+    MeasuredRun run(stalled);
+    run.advance(1.5);
+    EXPECT_NEAR(run.joint(0).position, 0.2, 0.01) << "at the wall";
+    run.advance(1.5);
+    EXPECT_NEAR(run.joint(0).position, 0.2 - 0.75, 0.02);
+    Scene weak = box_on_rail({0.0, 1.0, 0.0}, {0.0, -kGravity, 0.0});
+    ColliderDescription floor;
+    floor.shape = PlaneCollider{.offset = -0.051};
+    weak.colliders = {floor};
+    weak.attachments[0].motor =
+        JointMotor{.speed = 0.5, .position = 1.0, .force = 0.0, .keyframes = {{.time = 0.5, .force = 50.0}}};
+    MeasuredRun lifted(weak);
+    lifted.advance(1.5);
+    EXPECT_GT(lifted.joint(0).position, 0.4);
+}
+
 // With so little force that it has to brake early.
 TEST(Joints, MotorsDoNotOvershoot) {
     for (const double force : {0.1, 1.0, 10.0}) {

@@ -98,6 +98,46 @@ TEST_F(MadeAttachments, AreInRecordings) {
     expect_same(run, last, 1e-4);
 }
 
+// However many there are, and those from before the recording, which are not the scene's.
+TEST_F(MadeAttachments, FillRecordings) {
+    MeasuredRun run(scene_), other(scene_);
+    for (int k = 0; k < 12; ++k) {
+        run.simulator().attach({.object = "b", .where = AttachedPoint{run.center(1)}});
+        run.simulator().detach(static_cast<std::size_t>(k));
+        run.advance(1.0 / 60.0);
+    }
+    run.simulator().attach({.name = "hook", .object = "b", .where = AttachedPoint{run.center(1)}});
+    RecordingWriter writer(folder_ / "many.gel", run.simulator());
+    writer.write(run.simulator());
+    run.advance(0.1);
+    writer.write(run.simulator());
+    writer.finish();
+    const auto recording = std::make_shared<const Recording>(folder_ / "many.gel");
+    EXPECT_TRUE(recording->scene().attachments.empty());
+    Simulator player(recording);
+    player.step();
+    EXPECT_EQ(SimulatorInternals::attachments(player).size(), 13u);
+    other.simulator().load_checkpoint(folder_ / "many.gel");
+    for (MeasuredRun* each : {&run, &other}) each->advance(0.1);
+    EXPECT_LT(glm::distance(other.center(1), run.center(1)), 5e-3);
+    EXPECT_FALSE(other.is_broken(12));
+}
+
+// Of the run before.
+TEST_F(MadeAttachments, ExertNothingWhereStepsBeginAnew) {
+    MeasuredRun run(hanging_row());
+    RecordingWriter writer(folder_ / "row.gel", run.simulator());
+    writer.write(run.simulator());
+    writer.finish();
+    run.advance(0.5);
+    EXPECT_GT(glm::length(run.force(0)), 1.0);
+    run.simulator().load_checkpoint(folder_ / "row.gel");
+    EXPECT_EQ(run.force(0), glm::dvec3(0.0));
+    run.advance(0.5);
+    run.simulator().reset();
+    EXPECT_EQ(run.force(0), glm::dvec3(0.0));
+}
+
 // As far as they can be made there.
 TEST_F(MadeAttachments, GoOnInAnotherSimulation) {
     MeasuredRun run(scene_);

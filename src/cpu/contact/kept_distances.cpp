@@ -145,15 +145,6 @@ AxisBox<Real> KeptDistances<Real>::box_of(std::uint32_t object, const LostTets& 
 }
 
 template <class Real>
-bool KeptDistances<Real>::keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions) {
-    Shape& shape = shapes_[object];
-    if (shape.tets.empty()) return false;
-    if (keeps(shape, part, positions)) return true;
-    shape.turn = nearest_turn(object, positions);
-    return keeps(shape, part, positions);
-}
-
-template <class Real>
 std::vector<LostTets> KeptDistances<Real>::find_lost_tets(std::uint32_t object, Real part,
                                                           std::span<const Vec4<Real>> from,
                                                           std::span<const Vec4<Real>> to) {
@@ -188,15 +179,6 @@ std::vector<LostTets> KeptDistances<Real>::find_more_lost(std::uint32_t object, 
     for (std::uint32_t b = 0; b < columns.size(); ++b)
         if (columns[b] != 0) more.push_back({b, columns[b]});
     return more;
-}
-
-template <class Real>
-std::vector<AxisBox<Real>> KeptDistances<Real>::find_lost(std::uint32_t object, Real part,
-                                                          std::span<const Vec4<Real>> positions) {
-    std::vector<AxisBox<Real>> boxes;
-    for (const LostTets& lost : find_lost_tets(object, part, positions, positions))
-        boxes.push_back(box_of(object, lost));
-    return boxes;
 }
 
 template <class Real>

@@ -41,12 +41,9 @@ class KeptDistances {
 public:
     KeptDistances(std::shared_ptr<const Model> model, const ContactSurface& surface);
 
-    /// Whether two points of a convex body are at least `part` of the distance apart that they had at the
-    /// start. Always false for bodies that are not convex. May be called for several bodies at once.
-    bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions);
     /// Of a motion in which all nodes go straight: the tets that keep less than `part` at either end, with
     /// one R for both. Two points whose line at the start meets none of them keep their part all the way.
-    /// @pre is_convex(object)
+    /// May be called for several bodies at once. @pre is_convex(object)
     std::vector<LostTets> find_lost_tets(std::uint32_t object, Real part, std::span<const Vec4<Real>> from,
                                          std::span<const Vec4<Real>> to);
     /// Those that keep less elsewhere, with the same R, and are not known.
@@ -54,11 +51,6 @@ public:
                                          std::span<const Vec4<Real>> positions) const;
     /// Round lost tets at the start [m].
     AxisBox<Real> box_of(std::uint32_t object, const LostTets& lost) const;
-    /// Boxes round those tets of a convex body, at the start [m], that keep less than `part`, and others
-    /// beside them. Of two points whose line at the start meets none of them, keeps() would be true.
-    /// @pre is_convex(object)
-    std::vector<AxisBox<Real>> find_lost(std::uint32_t object, Real part,
-                                         std::span<const Vec4<Real>> positions);
     bool is_convex(std::uint32_t object) const { return !shapes_[object].tets.empty(); }
 
 private:

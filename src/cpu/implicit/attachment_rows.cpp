@@ -12,8 +12,7 @@
 namespace gelatin::cpu {
 
 template <class Real>
-AttachmentRows<Real>::AttachmentRows(std::shared_ptr<const Model> model)
-    : model_(std::move(model)), object_of_(objects_of_nodes(*model_)) {}
+AttachmentRows<Real>::AttachmentRows(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
 
 template <class Real>
 void AttachmentRows<Real>::set(const std::vector<Attachment>& attachments) {
@@ -138,7 +137,7 @@ Real AttachmentRows<Real>::stiffness_of(const ContactRow<Real>& row, std::span<c
     Real yield = 0;
     for (std::uint32_t k = 0; k < row.count; ++k) {
         const Real w = row.weights[k], compliance = compliances[row.nodes[k]];
-        const ModelObject& object = model_->objects[object_of_[row.nodes[k]]];
+        const ModelObject& object = model_->objects[model_->node_objects[row.nodes[k]]];
         yield +=
             w * w *
             (object.is_rigid && compliance > Real(0) ? kOfMass / static_cast<Real>(object.mass) : compliance);
@@ -194,8 +193,13 @@ void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows, std::spa
         const MotorMemory& last = forces_[row.attachment].last_motor;
         held = -static_cast<double>(glm::dot(force, row.normal));
         speed = static_cast<double>(glm::dot(slips[r] + row.target, row.normal)) / step;
-        const bool is_enough = std::abs(held) < 0.999 * static_cast<double>(row.limit);
-        acceleration = is_enough ? last.acceleration : std::abs(speed - last.speed) / step;
+        // How fast it can stop is known when all of its force moves it, and nothing blocks it.
+        const double wanted = static_cast<double>(glm::dot(row.target, row.normal)) / step;
+        const bool is_enough =
+            std::abs(held)<0.999 * static_cast<double>(row.limit), goes = std::abs(speed)> 0.05 *
+                std::abs(wanted) &&
+            (speed - last.speed) * (wanted - last.speed) > 0.0;
+        acceleration = is_enough || !goes ? last.acceleration : std::abs(speed - last.speed) / step;
     }
 }
 

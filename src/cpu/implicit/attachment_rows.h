@@ -27,6 +27,14 @@ public:
     /// @param nodes at present
     std::vector<AttachmentForce> forces(const Nodes<Real>& nodes) const;
     void archive(Archive& archive) { archive.array(forces_); }
+    /// What they exert; not which are broken.
+    void forget() {
+        for (auto& of : forces_) {
+            const std::uint64_t is_broken = of.is_broken;
+            of = {};
+            of.is_broken = is_broken;
+        }
+    }
 
     /// What ties one of these nodes to the other side, if anything does and is not broken.
     const Attachment* attachment_at(const ContactPair& pair) const;
@@ -70,7 +78,6 @@ private:
     Real stiffness_of(const ContactRow<Real>& row, std::span<const Real> compliances, Real shared) const;
 
     std::shared_ptr<const Model> model_;
-    std::vector<std::uint32_t> object_of_;
     std::vector<Attachment> attachments_;
     std::vector<State> forces_;
     std::vector<Vec3<Real>> axes_;        // of joints in this step: of a force, what its effort is

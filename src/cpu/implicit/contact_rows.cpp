@@ -15,7 +15,7 @@ namespace gelatin::cpu {
 template <class Real>
 ContactRows<Real>::ContactRows(std::shared_ptr<const Model> model,
                                std::shared_ptr<const ContactSurface> surface)
-    : model_(std::move(model)), surface_(std::move(surface)), object_of_(objects_of_nodes(*model_)) {}
+    : model_(std::move(model)), surface_(std::move(surface)) {}
 
 template <class Real>
 void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weight, Real first, Real second,
@@ -124,7 +124,7 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
             if (start.compliances[n] == Real(0) || attachments.is_tied_to_plane(n, c)) continue;
             const SurfaceDistance<Real> to = surface_distance(collider, Vec3<Real>(start.positions[n]));
-            const auto reach = static_cast<Real>(surface_->thicknesses[object_of_[n]]);
+            const auto reach = static_cast<Real>(surface_->thicknesses[model_->node_objects[n]]);
             const Real nearest = to.distance + std::min(Real(0), glm::dot(to.normal, start.expected[n]));
             if (nearest > static_cast<Real>(1.0 + tuning::kPathSlack) * reach) continue;  // as of pairs
             ContactRow<Real> row;
@@ -132,7 +132,7 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
             row.weights[0] = Real(1);
             row.count = 1;
             row.object = kNoNode;
-            row.other = object_of_[n];
+            row.other = model_->node_objects[n];
             row.normal = to.normal;
             row.gap = to.distance;
             row.reach = reach;

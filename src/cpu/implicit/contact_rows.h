@@ -58,7 +58,6 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    std::vector<std::uint32_t> object_of_;
     std::vector<Memory> memory_, noted_;  // by key
     std::vector<std::uint32_t> new_rows_;
     // Of the contacts of two objects that the last step had, the least gap, as a part of the reach.

@@ -307,9 +307,9 @@ ElasticSystem<float>::ElasticSystem(std::shared_ptr<const Model> model)
       cavities_(model_) {}
 
 void ElasticSystem<float>::leave_out(std::span<const std::uint8_t> asleep) {
-    const std::vector<std::uint32_t> object_of = objects_of_nodes(*model_);
     const auto is_asleep = [&](std::uint32_t node) {
-        return object_of[node] < asleep.size() && asleep[object_of[node]] != 0;
+        const std::uint32_t object = model_->node_objects[node];
+        return object < asleep.size() && asleep[object] != 0;
     };
     for (std::size_t g = 0; g < left_out_nodes_.size(); ++g)
         left_out_nodes_[g] = is_asleep(arrays_.groups[g].first) ? 1 : 0;

@@ -16,7 +16,7 @@ namespace gelatin::cpu {
 
 template <class Real>
 EnergyAccount<Real>::EnergyAccount(std::shared_ptr<const Model> model)
-    : model_(std::move(model)), object_of_(objects_of_nodes(*model_)), before_(model_->body_count(), 0.0) {
+    : model_(std::move(model)), before_(model_->body_count(), 0.0) {
     after_ = motions_ = motions_before_ = rounding_ = contacts_before_ = contacts_at_start_ =
         contacts_at_end_ = work_ = debts_ = dues_ = potentials_ = before_;
     momenta_.resize(before_.size());
@@ -173,7 +173,7 @@ void EnergyAccount<Real>::find_work(const Step& step) {
         const auto force = [&](const Vec4<Real>& at) {
             return step.pulls->force_at_end(n, at, Vec3<Real>(x), step.length);
         };
-        work_[object_of_[n]] +=
+        work_[model_->node_objects[n]] +=
             std::max({dot(force(x), d), dot(force(Vec4<Real>(Vec3<Real>(x) + d, x.w)), d), 0.0});
     }
 }

@@ -67,8 +67,7 @@ private:
     void find_vibrations(const Step& step, const Counts& counts);
 
     std::shared_ptr<const Model> model_;
-    std::vector<std::uint32_t> object_of_;  // by node
-    std::vector<double> drives_;            // of cavities
+    std::vector<double> drives_;  // of cavities
     bool is_known_ = false;
     std::vector<double> potentials_, potentials_before_;  // of bodies [J]
     std::vector<glm::dvec3> momenta_;                     // of bodies [kg m/s]

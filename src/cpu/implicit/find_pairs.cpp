@@ -31,7 +31,6 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
     : model_(std::move(model)),
       surface_(std::move(surface)),
       own_(own),
-      object_of_(objects_of_nodes(*model_)),
       kept_(model_, *surface_),
       near_at_rest_(model_),
       owns_(model_->objects.size()),
@@ -218,7 +217,7 @@ void FindPairs<Real>::run(const Paths<Real>& paths) {
 
 template <class Real>
 std::size_t FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes) {
-    for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 1;
+    for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[model_->node_objects[n]] = 1;
     for_each_index(0, has_changed_.size(), 1, [&](std::size_t o) {
         if (has_changed_[o] == 0) return;
         for (std::uint32_t f = model_->objects[o].faces.first; f < model_->objects[o].faces.end(); ++f)
@@ -229,7 +228,7 @@ std::size_t FindPairs<Real>::update(const Paths<Real>& paths, std::span<const st
     std::erase_if(pairs_, [&](const NearPair<Real>& near) { return has_changed_node(near.pair); });
     const std::size_t others = pairs_.size();
     search_all(paths, true);
-    for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 0;
+    for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[model_->node_objects[n]] = 0;
     for (Own& own : owns_) own.listed = own.boxes.size();
     return others;
 }

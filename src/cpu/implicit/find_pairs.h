@@ -141,7 +141,6 @@ private:
     std::shared_ptr<const ContactSurface> surface_;
     bool own_, finds_own_ = false;
     JoinedBodies joined_;
-    std::vector<std::uint32_t> object_of_;
     KeptDistances<Real> kept_;
     NearAtRest<Real> near_at_rest_;  // of bodies that are not convex
     std::vector<Own> owns_;

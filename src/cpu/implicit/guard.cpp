@@ -29,7 +29,6 @@ template <class Real>
 Guard<Real>::Guard(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface)
     : model_(std::move(model)),
       surface_(std::move(surface)),
-      object_of_(objects_of_nodes(*model_)),
       rigid_bodies_(model_),
       frames_(model_->objects.size()),
       wanted_(model_->node_count()),
@@ -97,7 +96,8 @@ void Guard<Real>::keep_outside_colliders(const Paths<Real>& paths, std::span<con
         for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
             if (compliances[n] == Real(0)) continue;
             const Real distance = surface_distance(collider, Vec3<Real>(ends[n])).distance;
-            if (distance >= static_cast<Real>(tuning::kLeastOfReach * surface_->thicknesses[object_of_[n]]))
+            if (distance >=
+                static_cast<Real>(tuning::kLeastOfReach * surface_->thicknesses[model_->node_objects[n]]))
                 continue;
             const auto [least, space] = beside_collider(collider, n, paths);
             if (distance >= least) continue;
@@ -116,10 +116,10 @@ typename Guard<Real>::BesideCollider Guard<Real>::beside_collider(const Collider
                                                                   std::uint32_t node,
                                                                   const Paths<Real>& paths) const {
     const SurfaceDistance<Real> from = surface_distance(collider, Vec3<Real>(paths.from[node]));
-    const auto thickness = static_cast<Real>(surface_->thicknesses[object_of_[node]]);
+    const auto thickness = static_cast<Real>(surface_->thicknesses[model_->node_objects[node]]);
     const Real least = std::min({static_cast<Real>(tuning::kLeastOfReach) * thickness,
                                  static_cast<Real>(tuning::kLeastOfGap) * from.distance, from.distance});
-    const Real frame = glm::dot(from.normal, frames_[object_of_[node]]);
+    const Real frame = glm::dot(from.normal, frames_[model_->node_objects[node]]);
     return {least, {kNoNode, -from.normal, (from.distance - least) + frame}};
 }
 
@@ -323,7 +323,7 @@ void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<
         if (along > space.room) part = std::min(part, std::max(space.room, Real(0)) / along);
     });
     if (is_frozen_[node] != 0) part = Real(0);
-    const Vec3<Real> end = Vec3<Real>(paths.from[node]) + frames_[object_of_[node]] + part * d;
+    const Vec3<Real> end = Vec3<Real>(paths.from[node]) + frames_[model_->node_objects[node]] + part * d;
     ends[node] = Vec4<Real>(end, ends[node].w);
 }
 
@@ -337,7 +337,7 @@ std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<
     for (bool any_blocked = true; any_blocked;) {
         std::copy(wanted.begin(), wanted.end(), ends.begin());
         for (std::size_t n = 0; n < ends.size(); ++n)
-            if (is_blocked[object_of_[n]] != 0 && ends[n].w == Real(0)) ends[n] = paths.from[n];
+            if (is_blocked[model_->node_objects[n]] != 0 && ends[n].w == Real(0)) ends[n] = paths.from[n];
         move(paths, pairs, compliances, ends, checked);
         checked = 0;
         any_blocked = false;
@@ -347,7 +347,7 @@ std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<
                 separation<Real>(pairs[p].pair, pairs[p].normal, ends) >= pairs[p].rounding)
                 continue;
             for (const std::uint32_t n : pairs[p].pair.nodes) {
-                std::uint8_t& blocked = is_blocked[object_of_[n]];
+                std::uint8_t& blocked = is_blocked[model_->node_objects[n]];
                 if (ends[n].w != Real(0) || blocked != 0) continue;
                 blocked = 1;
                 any_blocked = true;
@@ -356,7 +356,7 @@ std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<
     }
     std::vector<std::uint32_t> strays;
     for (const std::uint32_t n : model_->surface_parts.nodes) {
-        const Real slack = paths.slack * static_cast<Real>(surface_->thicknesses[object_of_[n]]);
+        const Real slack = paths.slack * static_cast<Real>(surface_->thicknesses[model_->node_objects[n]]);
         if (!(glm::distance(Vec3<Real>(ends[n]), Vec3<Real>(paths.to[n])) <= slack)) strays.push_back(n);
     }
     return strays;
@@ -371,7 +371,7 @@ void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>>
     is_clipped_.assign(pairs.size(), 0);
     find_frames(paths, pairs, ends);
     for_each_index(ends.size(), [&](std::size_t n) {
-        wanted_[n] = Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]) - frames_[object_of_[n]];
+        wanted_[n] = Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]) - frames_[model_->node_objects[n]];
     });
     keep_outside_colliders(paths, compliances, ends);
     // In rounds: what is clipped moves nodes, so other pairs of these are checked again.
@@ -380,7 +380,7 @@ void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>>
         bool any = false;
         for (std::uint32_t n = 0; n < ends.size(); ++n) {
             if (is_changed_[n] == 0) continue;
-            if (!rigid_bodies_.is_rigid(object_of_[n])) place(n, paths, ends);
+            if (!rigid_bodies_.is_rigid(model_->node_objects[n])) place(n, paths, ends);
             any = true;
         }
         for (const std::uint32_t o : rigid_bodies_.objects()) {

@@ -72,7 +72,6 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    std::vector<std::uint32_t> object_of_;
     RigidBodies<Real> rigid_bodies_;
     std::vector<Vec3<Real>> frames_;    // by object: what its island has in common [m]
     std::vector<Vec3<Real>> wanted_;    // displacements in the frame [m]

@@ -20,7 +20,6 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       surface_(std::make_shared<ContactSurface>(make_contact_surface(*model_, collision))),
       contacts_(contacts),
       own_(own),
-      object_of_(objects_of_nodes(*model_)),
       rigid_bodies_(model_),
       pairs_(model_, surface_, own),
       rows_(model_, surface_),
@@ -72,6 +71,7 @@ std::vector<std::uint32_t> ImplicitStep<Real>::set_cavity_drives(std::span<const
 template <class Real>
 void ImplicitStep<Real>::forget() {
     rows_.forget();
+    attachments_.forget();
     acting_.clear();
     pairs_.forget();
     parts_ = 1;
@@ -279,7 +279,7 @@ template <class Real>
 std::vector<std::uint32_t> ImplicitStep<Real>::count_held(const Nodes<Real>& nodes) const {
     std::vector<std::uint32_t> counts(model_->body_count());
     for (std::uint32_t n = 0; n < model_->body_node_count(); ++n)
-        if (nodes.positions[n].w == Real(0)) ++counts[object_of_[n]];
+        if (nodes.positions[n].w == Real(0)) ++counts[model_->node_objects[n]];
     return counts;
 }
 
@@ -326,7 +326,8 @@ void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>
         expected_[n] = step * v;
         if (!is_held) expected_[n] += step * step * acceleration(input, previous, n);
         // What is calm is carried by what it touches.
-        const bool is_carried = model_->is_body(object_of_[n]) && paces_.is_calm(object_of_[n]);
+        const bool is_carried =
+            model_->is_body(model_->node_objects[n]) && paces_.is_calm(model_->node_objects[n]);
         ends_[n] = Vec4<Real>(x + (is_carried ? step * v : expected_[n]), previous.positions[n].w);
         compliances_[n] = is_held ? Real(0) : compliance(n, previous.positions[n].w, least);
     });
@@ -335,7 +336,7 @@ void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>
 // 1 / h of a node in contacts.
 template <class Real>
 Real ImplicitStep<Real>::compliance(std::size_t n, Real inverse_mass, Real step) const {
-    if (model_->objects[object_of_[n]].is_rigid)
+    if (model_->objects[model_->node_objects[n]].is_rigid)
         return surface_->places[n] == kNoNode ? Real(0)
                                               : step * step / static_cast<Real>(surface_->bearing[n]);
     return Real(1) /
@@ -359,7 +360,7 @@ void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<
             system_.displacements[n] = expected_[n];
             return;
         }
-        const Real h = scheme_.of(object_of_[n]).step;
+        const Real h = scheme_.of(model_->node_objects[n]).step;
         system_.inertia[n] = Real(1) / (previous.positions[n].w * h * h);
         system_.displacements[n] = scheme_.target(previous, n, acceleration(input, previous, n));
     });
@@ -369,7 +370,7 @@ template <class Real>
 void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Real>& previous) {
     velocities_ = previous.velocities;
     for_each_index(velocities_.size(), [&](std::size_t n) {
-        velocities_[n].w = std::max(velocities_[n].w, scheme_.of(object_of_[n]).damping);
+        velocities_[n].w = std::max(velocities_[n].w, scheme_.of(model_->node_objects[n]).damping);
     });
     system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step, cavity_drives_);
     const double fall =
@@ -412,7 +413,7 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     // Where what is free is wanted is also what its solve starts from. What is held goes on as it goes.
     for_each_index(model_->node_count(), [&](std::size_t n) {
         system_.loads[n] += system_.inertia[n] * system_.displacements[n];
-        if (system_.inertia[n] > Real(0) && !system_.rigid.is_free(object_of_[n]))
+        if (system_.inertia[n] > Real(0) && !system_.rigid.is_free(model_->node_objects[n]))
             system_.displacements[n] = input.step * Vec3<Real>(previous.velocities[n]);
     });
     for (const std::uint32_t o : rigid_bodies_.objects())
@@ -483,7 +484,7 @@ std::vector<std::uint32_t> ImplicitStep<Real>::stop_guarded(std::span<const Vec4
         const Vec3<Real> change = Vec3<Real>(x - wanted[n]) / step_;
         current.velocities[n] += Vec4<Real>(change, 0);
         const double mass = 1.0 / static_cast<double>(x.w);
-        const std::uint32_t island = islands_.of_bodies[object_of_[n]];
+        const std::uint32_t island = islands_.of_bodies[model_->node_objects[n]];
         sums[island].add(glm::dvec3(x), mass, mass * glm::dvec3(change));
         if (change != Vec3<Real>(0)) is_stopped[island] = 1;
     }
@@ -596,7 +597,8 @@ void ImplicitStep<Real>::find_forces_on_held(const StepInput<Real>& input, const
     const Field elastic = system_.elastic_forces();
     forces.resize(elastic.size());
     for_each_index(elastic.size(), [&](std::size_t n) {
-        if (object_of_[n] >= asleep_.size() || asleep_[object_of_[n]] == 0) forces[n] = elastic[n];
+        if (model_->node_objects[n] >= asleep_.size() || asleep_[model_->node_objects[n]] == 0)
+            forces[n] = elastic[n];
     });
     for (const Acting& acting : acting_)
         for (std::uint32_t k = 0; k < acting.row.count && !is_asleep(acting.row); ++k)

@@ -130,7 +130,6 @@ private:
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     bool contacts_, own_;
-    std::vector<std::uint32_t> object_of_;
     RigidBodies<Real> rigid_bodies_;
     FindPairs<Real> pairs_;
     ContactRows<Real> rows_;

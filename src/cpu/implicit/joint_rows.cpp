@@ -138,6 +138,9 @@ void JointRows<Real>::add(const MotorTarget& motor, const MotorMemory& memory, d
                 speed = std::min(speed, std::sqrt(memory.acceleration / unit * std::abs(left)));
             speed = std::clamp(left / std::max(step, tuning::kServo), -speed, speed);
         }
+        // No farther than its limits, which are no stiffer than a motor of any force.
+        speed = std::min(speed, std::max(joint_.limits.y - start_, 0.0) / step);
+        speed = std::max(speed, std::min(joint_.limits.x - start_, 0.0) / step);
         // What rigid bodies' rows are stiff by is for a part of 1/240 s. This one keeps no energy, and goes
         // by the part: else it would be too soft in short ones.
         const double part = tuning::kFrame / tuning::kParts[0] / step;

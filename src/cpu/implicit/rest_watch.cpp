@@ -12,7 +12,6 @@ template <class Real>
 RestWatch<Real>::RestWatch(std::shared_ptr<const Model> model, std::span<const double> thicknesses)
     : model_(std::move(model)),
       thicknesses_(thicknesses.begin(), thicknesses.end()),
-      object_of_(objects_of_nodes(*model_)),
       times_(model_->body_count()),
       asleep_(model_->body_count()),
       islands_(model_->body_count()) {}
@@ -47,7 +46,7 @@ bool RestWatch<Real>::begin(const Drive& drive) {
     }
     if (drive.pulls != nullptr)
         for (const std::uint32_t n : drive.pulls->nodes())
-            if (object_of_[n] < times_.size()) wake(object_of_[n]);
+            if (model_->node_objects[n] < times_.size()) wake(model_->node_objects[n]);
     for (const std::uint32_t o : drive.moved) wake(o);
     const bool moves_colliders = wake_moved(drive);
     for_each_index(0, times_.size(), 1, [&](std::size_t o) {
@@ -79,8 +78,8 @@ bool RestWatch<Real>::wake_moved(const Drive& drive) {
         const bool is_released = drive.positions[n].w != places_[n].w;
         if (!is_released && !(drive.positions[n].w == Real(0) && glm::dot(moved, moved) > most * most))
             continue;
-        if (object_of_[n] < times_.size()) {
-            wake(object_of_[n]);
+        if (model_->node_objects[n] < times_.size()) {
+            wake(model_->node_objects[n]);
         } else {
             moves_colliders = true;
         }

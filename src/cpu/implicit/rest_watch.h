@@ -57,11 +57,10 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::vector<double> thicknesses_;
-    std::vector<std::uint32_t> object_of_;  // by node
-    std::vector<Vec4<Real>> places_;        // that nodes have kept to; empty at the start
-    std::vector<double> times_;             // for which bodies have [s]
-    std::vector<std::uint8_t> asleep_;      // bodies
-    std::vector<std::uint32_t> islands_;    // in which they fell asleep
+    std::vector<Vec4<Real>> places_;      // that nodes have kept to; empty at the start
+    std::vector<double> times_;           // for which bodies have [s]
+    std::vector<std::uint8_t> asleep_;    // bodies
+    std::vector<std::uint32_t> islands_;  // in which they fell asleep
     std::vector<float> load_factors_;
 };
 

@@ -33,9 +33,7 @@ void Restitution<Real>::note(const Step& step, const RigidLevel<Real>& rigid, co
         after[rigid.number(o)] = rigid.velocity(o, current.velocities);
     });
     for (auto& [pair, meeting] : meetings_) meeting.pressing = {};
-    const auto is_free = [&](std::size_t object) {
-        return object < model_->body_count() && rigid.is_free(object);
-    };
+    const auto is_free = [&](std::size_t object) { return is_free_body(object, rigid); };
     for (std::size_t r = 0; r < step.rows.size(); ++r) {
         const ContactRow<Real>& row = step.rows[r];
         const auto force = static_cast<double>(row.pressing(slip<Real>(row, step.displacements)));
@@ -93,7 +91,10 @@ bool Restitution<Real>::run(const Step& step, const RigidLevel<Real>& rigid, Nod
         }
         meeting.time += step.length;
         const double left = tuning::kLeftOfApproach * meeting.approach;
-        const bool counts = meeting.approach > step.resting_speed && meeting.time < tuning::kLongestImpact;
+        // Both may have been held meanwhile, or fallen asleep.
+        const bool any_free = is_free_body(at->first.first, rigid) || is_free_body(at->first.second, rigid);
+        const bool counts =
+            any_free && meeting.approach > step.resting_speed && meeting.time < tuning::kLongestImpact;
         bool is_over = !counts;
         if (counts && now.after >= -left * now.force &&
             (now.after - now.before) * meeting.time <= left * now.force * step.length) {
@@ -127,7 +128,7 @@ typename Restitution<Real>::Impact Restitution<Real>::find_impact(const Pair& pa
     Impact impact;
     impact.normal = glm::normalize(meeting.impulse);
     for (const std::size_t object : {pair.first, pair.second}) {
-        if (object >= model_->body_count() || !rigid.is_free(object)) continue;
+        if (!is_free_body(object, rigid)) continue;
         impact.sides.push_back({object, object == pair.second ? 1.0 : -1.0,
                                 RigidPart<Real>(model_->objects[object].nodes, current)});
     }

@@ -78,6 +78,9 @@ private:
     void strike(const Impact& impact, double speed, Nodes<Real>& current,
                 std::span<std::uint8_t> is_struck) const;
     double restitution_of(const Pair& pair) const;
+    bool is_free_body(std::size_t object, const RigidLevel<Real>& rigid) const {
+        return object < model_->body_count() && rigid.is_free(object);
+    }
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;

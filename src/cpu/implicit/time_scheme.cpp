@@ -17,7 +17,6 @@ namespace gelatin::cpu {
 template <class Real>
 TimeScheme<Real>::TimeScheme(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
-      object_of_(objects_of_nodes(*model_)),
       schemes_(model_->objects.size()),
       tied_(model_->body_count()),
       began_(model_->body_count()),
@@ -88,7 +87,7 @@ template <class Real>
 void TimeScheme<Real>::end(const Nodes<Real>& previous, const Nodes<Real>& current) {
     accelerations_.resize(current.positions.size(), Vec3<Real>(0));
     for_each_index(accelerations_.size(), [&](std::size_t n) {
-        const Scheme& s = schemes_[object_of_[n]];
+        const Scheme& s = schemes_[model_->node_objects[n]];
         const Vec3<Real> change(current.velocities[n] - previous.velocities[n]),
             before = s.past * (Real(1) - s.gamma) * accelerations_[n];
         accelerations_[n] = (change / s.length - before) / s.gamma;
@@ -126,7 +125,7 @@ void TimeScheme<Real>::set_second_order(std::size_t object, Real step, double le
 template <class Real>
 Vec3<Real> TimeScheme<Real>::target(const Nodes<Real>& previous, std::size_t node,
                                     const Vec3<Real>& acceleration) const {
-    const Scheme& s = schemes_[object_of_[node]];
+    const Scheme& s = schemes_[model_->node_objects[node]];
     const Vec3<Real> target =
         s.length * Vec3<Real>(previous.velocities[node]) + s.step * s.step * acceleration;
     return s.past > Real(0)
@@ -137,7 +136,7 @@ Vec3<Real> TimeScheme<Real>::target(const Nodes<Real>& previous, std::size_t nod
 template <class Real>
 Vec3<Real> TimeScheme<Real>::velocity(const Nodes<Real>& previous, std::size_t node,
                                       const Vec3<Real>& displacement) const {
-    const Scheme& s = schemes_[object_of_[node]];
+    const Scheme& s = schemes_[model_->node_objects[node]];
     const Real h = s.length;
     if (s.past == Real(0)) return displacement / h;
     const Vec3<Real> v(previous.velocities[node]), before = accelerations_[node];

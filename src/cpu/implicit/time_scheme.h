@@ -93,9 +93,8 @@ private:
                   std::span<const Vec4<Real>> velocities) const;
 
     std::shared_ptr<const Model> model_;
-    std::vector<std::uint32_t> object_of_;  // by node
-    std::vector<Real> wave_times_;          // by body [s]
-    std::vector<Scheme> schemes_;           // by object
+    std::vector<Real> wave_times_;  // by body [s]
+    std::vector<Scheme> schemes_;   // by object
     Real last_step_ = 0;
     std::vector<Vec3<Real>> accelerations_;        // a_0 [m/s^2]
     std::vector<std::uint32_t> tied_, next_tied_;  // of each body the least one with which it has left some

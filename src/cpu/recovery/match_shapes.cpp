@@ -24,7 +24,6 @@ template <class Real>
 ShapeMatcher<Real>::ShapeMatcher(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       shapes_(make_match_shapes(*model_)),
-      object_of_(objects_of_nodes(*model_)),
       inverted_(model_->objects.size()),
       lost_for_(model_->body_count()) {
     forget();
@@ -64,7 +63,7 @@ void ShapeMatcher<Real>::count_inverted_tets(const std::vector<Vec4<Real>>& posi
             const Vec3<Real> u = Vec3<Real>(positions[tet.y]) - a, v = Vec3<Real>(positions[tet.z]) - a,
                              w = Vec3<Real>(positions[tet.w]) - a;
             if (glm::dot(glm::cross(u, v), w) > Real(0)) continue;
-            std::atomic_ref(inverted_[object_of_[tet.x]]).fetch_add(1, std::memory_order_relaxed);
+            std::atomic_ref(inverted_[model_->node_objects[tet.x]]).fetch_add(1, std::memory_order_relaxed);
         }
     });
 }

@@ -33,9 +33,8 @@ private:
 
     std::shared_ptr<const Model> model_;
     MatchShapes shapes_;
-    std::vector<std::uint32_t> object_of_;  // by node
-    std::vector<std::uint32_t> inverted_;   // tets, by object
-    std::vector<float> lost_for_;           // how long bodies have seemed to be lost [s]
+    std::vector<std::uint32_t> inverted_;  // tets, by object
+    std::vector<float> lost_for_;          // how long bodies have seemed to be lost [s]
 };
 
 }  // namespace gelatin::cpu

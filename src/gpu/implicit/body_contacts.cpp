@@ -44,7 +44,6 @@ BodyContacts::BodyContacts(const Model& model, const ContactSurface& surface, St
       model_(&model),
       state_(&state),
       system_(&system),
-      object_of_(objects_of_nodes(model)),
       guard_(model, state, pairs),
       row_forces_(gl::Program::compute("sim/implicit/row_forces.comp")),
       begin_follow_(gl::Program::compute("sim/implicit/follow_shapes.comp")),
@@ -122,7 +121,8 @@ ContactForces BodyContacts::forces() const {
     for (std::size_t r = 0; r < count; ++r) {
         const glm::dvec3 normal(of_rows[2 * r]), friction(of_rows[2 * r + 1]);
         const glm::dvec3 none(0.0);
-        if (normal != none || friction != none) add_row(rows_made[r], object_of_, normal, friction, sums);
+        if (normal != none || friction != none)
+            add_row(rows_made[r], model_->node_objects, normal, friction, sums);
     }
     return sums.take();
 }

@@ -67,7 +67,6 @@ private:
     const Model* model_;
     StepState* state_;
     StepSystem* system_;
-    std::vector<std::uint32_t> object_of_;  // by node
     PairGuard guard_;
     gl::Program row_forces_, begin_follow_, end_follow_;
 };

@@ -19,7 +19,7 @@ gl::Program guard_program(const std::string& name, const gl::Defines& defines = 
 
 // Twice the object, and 1 more on its surface.
 std::vector<std::uint32_t> places_of_nodes(const Model& model) {
-    std::vector<std::uint32_t> places = objects_of_nodes(model);
+    std::vector<std::uint32_t> places = model.node_objects;
     for (std::uint32_t& place : places) place *= 2;
     for (const std::uint32_t n : model.surface_parts.nodes) places[n] |= 1;
     return places;

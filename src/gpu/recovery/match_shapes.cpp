@@ -33,7 +33,7 @@ ShapeMatcher::ShapeMatcher(const Model& model)
       object_count_(static_cast<std::uint32_t>(model.objects.size())),
       tets_(model.tets, gl::TexelFormat::rgba32ui),
       tet_rests_(volumes_of(model), gl::TexelFormat::rgba32f),
-      node_objects_(objects_of_nodes(model), gl::TexelFormat::r32ui),
+      node_objects_(model.node_objects, gl::TexelFormat::r32ui),
       inverted_(kDispatches * sizeof(Dispatch) / sizeof(std::uint32_t) + model.objects.size()),
       places_(model.objects.size()),
       lost_for_(model.objects.size()) {

@@ -171,9 +171,8 @@ private:
             nodes = find_inside(*region, positions_of_object(object, positions_));
             for (std::uint32_t& n : nodes) n += object.nodes.first;
             if (nodes.empty())
-                fail("region", fmt::format("holds no node of '{}' (regions are in world coordinates at the "
-                                           "start)",
-                                           object.name));
+                fail("region",
+                     fmt::format("holds no node of '{}' (regions are in world coordinates)", object.name));
         } else {
             nodes = near_nodes();
             if (nodes.empty())

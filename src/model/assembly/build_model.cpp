@@ -439,6 +439,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
     model.half_springs = pack_half_springs(model.node_count(), model.springs);
     model.incidence = make_incidence(model.node_count(), model.springs);
     model.neo_hookean_corners = make_neo_hookean_corners(model);
+    model.node_objects = objects_of_nodes(model);
     model.node_faces = make_node_faces(model.node_count(), model.faces);
     model.surface_parts = make_surface_parts(model.faces, model.node_faces);
     model.volume_term =

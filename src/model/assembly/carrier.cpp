@@ -96,9 +96,12 @@ double Carrier::size() const {
 }
 
 bool Carrier::can_carry() const {
+    if (!is_rigid_ && !is_surface_) return true;
+    constexpr double kThinnest = 1e-3;  // as a part of the length
     const glm::dmat3 edges = frame_edges();
-    const double size = glm::length(edges[0]);
-    return !(is_rigid_ || is_surface_) || std::abs(glm::determinant(edges)) > 1e-3 * size * size * size;
+    const double length = glm::length(edges[0]), width = glm::length(glm::cross(edges[0], edges[1])) / length,
+                 height = std::abs(glm::determinant(edges)) / (length * width);
+    return width > kThinnest * length && height > kThinnest * length;
 }
 
 void Carrier::find_frame() {

@@ -28,6 +28,7 @@ struct Handle {
 
     std::size_t object = 0;  ///< index in Model::objects
     bool is_pin = false;     ///< from ObjectDescription::pins, otherwise from its handles
+    bool is_added = false;   ///< a pin of a program (with_pins)
     std::size_t index = 0;   ///< index there
     std::size_t count = 0;   ///< number of nodes
     glm::dvec3 middle{0.0};  ///< the nodes' centre at the start, relative to the pivot [m]

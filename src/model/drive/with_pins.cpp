@@ -33,7 +33,7 @@ void append_pin(const AddedPin& pin, std::size_t index, Model& model) {
     for (const glm::vec3& place : pin.places)
         handle.pivot += glm::dvec3(place) / static_cast<double>(pin.places.size());
     handle.object = pin.object;
-    handle.is_pin = true;
+    handle.is_pin = handle.is_added = true;
     handle.index = index;
     handle.count = pin.nodes.size();
     handle.most_speed = most_drag_speed(model, model.objects[pin.object]);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -109,7 +111,10 @@ private:
 void check_attachments(const ValueChecks& checks, const Scene& scene) {
     if (scene.attachments.empty()) return;
     const AttachmentCheck check(checks, scene);
-    std::unordered_map<std::string_view, int> lines;  // by name
+    std::map<std::string, int, std::less<>> lines;  // by name; those without one are called by their place
+    for (std::size_t a = 0; a < scene.attachments.size(); ++a)
+        if (scene.attachments[a].name.empty())
+            lines.emplace(fmt::format("attachment {}", a + 1), scene.attachments[a].line);
     for (std::size_t a = 0; a < scene.attachments.size(); ++a) {
         const AttachmentDescription& attachment = scene.attachments[a];
         const FieldPath field("attachment", a);

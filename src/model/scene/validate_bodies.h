@@ -17,6 +17,8 @@ inline constexpr const char* kHasNoTets = "a rigid body has none: it does not de
 
 /// A region of an object's pin, handle, load or part, or of an attachment.
 void check_region(const ValueChecks& checks, const FieldPath& field, const Region& region);
+/// The same of one that a program gives. @throws InvalidInput naming "region"
+void check_region(const Region& region);
 void check_keyframes(const ValueChecks& checks, const FieldPath& field, const std::vector<Keyframe>& keys);
 void check_handle(const ValueChecks& checks, const FieldPath& field, const HandleDescription& handle,
                   bool has_contact);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "gelatin/error.h"
 #include "model/scene/validate_animation.h"
 #include "model/scene/validate_bodies.h"
 
@@ -34,6 +35,14 @@ void check_region(const ValueChecks& checks, const FieldPath& field, const Regio
         checks.check_direction(field / "plane", half_space->normal);
         checks.check(field / "offset", half_space->offset);
     }
+}
+
+void check_region(const Region& region) {
+    const ReportProblem report = [](const FieldPath& field, const std::string& value,
+                                    const std::string& problem) {
+        throw InvalidInput({{}, 0, describe(field, {}), value, problem});
+    };
+    check_region(ValueChecks(report), FieldPath("region"), region);
 }
 
 void check_keyframes(const ValueChecks& checks, const FieldPath& field, const std::vector<Keyframe>& keys) {

@@ -180,7 +180,8 @@ RecordedFrame decoded_frame(std::string_view bytes, const Model& model, const Ea
                             const RecordedFrame* previous) {
     const std::size_t nodes = model.node_count(), handles = model.handles.size(),
                       objects = model.objects.size();
-    const std::size_t most = 4096 + kArrays * nodes * sizeof(glm::vec4) +
+    constexpr std::size_t kMostProgrammed = std::size_t(1) << 30;  // of what programs have made and set
+    const std::size_t most = 4096 + kMostProgrammed + kArrays * nodes * sizeof(glm::vec4) +
                              handles * (2 * sizeof(Drag) + 7 * sizeof(double)) +
                              model.cavities.size() * sizeof(double) + handles * 5 * sizeof(double) +
                              model.handle_nodes.size() * 2 * sizeof(glm::dvec3) +

@@ -22,7 +22,8 @@ constexpr std::size_t kMostWaiting = 4;
 
 RecordingHead head_of(const Simulator& simulator) {
     const Model& model = model_of(simulator);
-    return {recorded_scene(simulator.scene(), model.meshes.get()), topology_hash(model)};
+    return {recorded_scene(SimulatorInternals::own_scene(simulator), model.meshes.get()),
+            topology_hash(model)};
 }
 
 }  // namespace

@@ -38,6 +38,11 @@ TEST(ConvexBodies, AreFound) {
     EXPECT_FALSE(is_convex(test::make_model(test::make_body(block))));
 }
 
+template <class Real>
+bool keeps(cpu::KeptDistances<Real>& kept, Real part, std::span<const cpu::Vec4<Real>> positions) {
+    return kept.find_lost_tets(0, part, positions, positions).empty();
+}
+
 struct ConvexBody {
     std::shared_ptr<const Model> model = std::make_shared<const Model>(
         test::make_model(test::make_body(test::make_block({4, 3, 3}, {0.8, 0.6, 0.5}))));
@@ -75,19 +80,19 @@ TEST(KeptDistances, AreNeverLessThanToldOfRandomShapes) {
             return turn * (linear * p + 0.3 * glm::dvec3(p.y * p.y, p.z * p.x, 0.0) + random.point(uneven));
         });
         const double part = random.uniform(0.05, 0.9);
-        const bool keeps = body.kept.keeps(0, part, positions);
-        ++(keeps ? kept : lost);
-        if (keeps) {
+        const bool is_kept = keeps<double>(body.kept, part, positions);
+        ++(is_kept ? kept : lost);
+        if (is_kept) {
             EXPECT_GE(body.least_part(positions), 0.999 * part) << round;
         }
         // The same in single precision, but for what rounding may decide.
         const std::vector<glm::vec4> rounded(positions.begin(), positions.end());
         const auto single = static_cast<float>(part);
-        if (keeps) {
-            EXPECT_TRUE(body.fast.keeps(0, single - 1e-3f, rounded)) << round;
+        if (is_kept) {
+            EXPECT_TRUE(keeps<float>(body.fast, single - 1e-3f, rounded)) << round;
         }
-        if (!keeps && !body.kept.keeps(0, part - 1e-3, positions)) {
-            EXPECT_FALSE(body.fast.keeps(0, single, rounded)) << round;
+        if (!is_kept && !keeps<double>(body.kept, part - 1e-3, positions)) {
+            EXPECT_FALSE(keeps<float>(body.fast, single, rounded)) << round;
         }
     }
     EXPECT_GT(kept, 30);
@@ -101,9 +106,9 @@ TEST(KeptDistances, AreAllThereInRigidMotions) {
         const glm::dquat turn = glm::normalize(glm::dquat(random.uniform(-1.0, 1.0), random.point(1.0)));
         const glm::dvec3 way = random.point(10.0);
         EXPECT_TRUE(
-            body.kept.keeps(0, 0.999, body.moved([&](const glm::dvec3& p) { return turn * p + way; })));
-        EXPECT_FALSE(
-            body.kept.keeps(0, 0.9, body.moved([&](const glm::dvec3& p) { return turn * (0.8 * p) + way; })));
+            keeps<double>(body.kept, 0.999, body.moved([&](const glm::dvec3& p) { return turn * p + way; })));
+        EXPECT_FALSE(keeps<double>(body.kept, 0.9,
+                                   body.moved([&](const glm::dvec3& p) { return turn * (0.8 * p) + way; })));
     }
 }
 
@@ -116,7 +121,7 @@ TEST(KeptDistances, AreLostWhereATetIsInsideOut) {
         (glm::dvec3(positions[tet.y]) + glm::dvec3(positions[tet.z]) + glm::dvec3(positions[tet.w])) / 1.5 -
         a;
     positions[tet.x] = glm::dvec4(beyond, positions[tet.x].w);
-    EXPECT_FALSE(body.kept.keeps(0, 0.01, positions));
+    EXPECT_FALSE(keeps<double>(body.kept, 0.01, positions));
 }
 
 // Whether a straight line passes through a box.
@@ -152,8 +157,9 @@ TEST(KeptDistances, AreLostAtMostBetweenWhatIsTold) {
         std::vector<glm::uvec4> beside;
         for (const glm::uvec4& tet : body.model->tets)
             if (glm::any(glm::equal(tet, glm::uvec4(drawn)))) beside.push_back(tet);
-        const auto lost = body.kept.find_lost(0, kPart, positions);
-        EXPECT_EQ(lost.empty(), body.kept.keeps(0, kPart, positions)) << round;
+        std::vector<cpu::AxisBox<double>> lost;
+        for (const cpu::LostTets& tets : body.kept.find_lost_tets(0, kPart, positions, positions))
+            lost.push_back(body.kept.box_of(0, tets));
         struct Point {
             glm::dvec3 at_start{0.0}, now{0.0};
         };
@@ -190,10 +196,10 @@ TEST(KeptDistances, TellOfNoMoreThanATenthOfABodyWhereOneTetIsLost) {
     std::vector<glm::vec4> positions = model->positions;
     const glm::uvec4& tet = model->tets[model->tets.size() / 2];
     positions[tet.x] += 1.5f * (positions[tet.y] - positions[tet.x]);
-    const auto lost = kept.find_lost(0, 0.01f, positions);
+    const auto lost = kept.find_lost_tets(0, 0.01f, positions, positions);
     ASSERT_FALSE(lost.empty());
     EXPECT_LT(8 * lost.size(), model->tets.size() / 10);
-    EXPECT_TRUE(kept.find_lost(0, 0.01f, model->positions).empty());
+    EXPECT_TRUE(keeps<float>(kept, 0.01f, model->positions));
 }
 
 }  // namespace

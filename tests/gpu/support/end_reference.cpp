@@ -27,7 +27,7 @@ EndReference::EndReference(std::shared_ptr<const Model> some_model, double some_
       guard(model, surface),
       contacts_(contacts),
       pairs_(model, surface, contacts),
-      object_of_(objects_of_nodes(*model)),
+      object_of_(model->node_objects),
       asleep_(model->body_count()),
       expected_(model->node_count()),
       ends_(model->node_count()),

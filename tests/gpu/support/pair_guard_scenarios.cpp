@@ -19,7 +19,7 @@ using Move = std::function<glm::dvec3(std::uint32_t object, const glm::dvec3& x)
 
 Wishes wish(const std::shared_ptr<const Model>& model, const Move& move, bool own = false) {
     Wishes wishes{.model = model, .own = own};
-    const std::vector<std::uint32_t> object_of = objects_of_nodes(*model);
+    const std::vector<std::uint32_t> object_of = model->node_objects;
     for (std::uint32_t n = 0; n < model->node_count(); ++n) {
         const glm::vec4& x = model->positions[n];
         wishes.ends.emplace_back(glm::vec3(move(object_of[n], glm::dvec3(x))), x.w);

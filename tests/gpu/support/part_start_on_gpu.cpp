@@ -209,7 +209,7 @@ bool StartOnGpu::run() {
 }
 
 std::vector<ContactRow<double>> StartOnGpu::rows() const {
-    const std::vector<std::uint32_t> object_of = objects_of_nodes(model_);
+    const std::vector<std::uint32_t> object_of = model_.node_objects;
     std::vector<StepRow> all = downloaded(system.buffers().rows.values);
     all.resize(read_clock().row_count);
     std::vector<ContactRow<double>> rows;

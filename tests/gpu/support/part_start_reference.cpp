@@ -228,7 +228,7 @@ private:
     }
 
     void find_targets(double step) {
-        const std::vector<std::uint32_t> object_of = objects_of_nodes(model_);
+        const std::vector<std::uint32_t> object_of = model_.node_objects;
         for (std::uint32_t n = 0; n < model_.node_count(); ++n) {
             const glm::dvec4 x = previous_.positions[n];
             const double h = scheme_.of(object_of[n]).step;
@@ -270,7 +270,7 @@ private:
     }
 
     void linearise(double step) {
-        const std::vector<std::uint32_t> object_of = objects_of_nodes(model_);
+        const std::vector<std::uint32_t> object_of = model_.node_objects;
         std::vector<glm::dvec4> velocities = previous_.velocities;
         for (std::uint32_t n = 0; n < model_.node_count(); ++n)
             velocities[n].w = std::max(velocities[n].w, scheme_.of(object_of[n]).damping);

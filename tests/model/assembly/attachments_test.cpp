@@ -343,7 +343,7 @@ TEST(JoinedBodies, AreThoseOfJointsButDistances) {
 TEST(MakeAttachment, SaysWhatIsWrong) {
     const Scene scene = cubes();
     EXPECT_EQ(error_of(scene, {.object = "a", .where = HalfSpaceRegion{{0, 1, 0}, -1.0}}),
-              "attachment[0].region: holds no node of 'a' (regions are in world coordinates at the start)");
+              "attachment[0].region: holds no node of 'a' (regions are in world coordinates)");
     Scene far = scene;
     far.objects[1].position.x = 0.5;
     EXPECT_TRUE(

@@ -91,6 +91,10 @@ TEST_F(ValidateAttachments, NamesAreFree) {
               "attachment.a.name = \"a\": is taken by another attachment");
     EXPECT_EQ(error_of(BREAKS(add_attachment(s); s.attachments.push_back(s.attachments[0]))), "no error")
         << "two without a name";
+    // One without a name is called by its place.
+    EXPECT_EQ(error_of(BREAKS(add_attachment(s).name = "attachment 2";
+                              s.attachments.push_back(s.attachments[0]); s.attachments[1].name.clear())),
+              "attachment.attachment 2.name = \"attachment 2\": is taken by another attachment");
 }
 
 // Without contact, too.
