@@ -204,6 +204,31 @@ void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows, std::spa
 }
 
 template <class Real>
+bool AttachmentRows<Real>::block_held(std::span<const Vec4<Real>> positions,
+                                      std::span<const double> thicknesses,
+                                      std::vector<std::uint8_t>& is_blocked) const {
+    bool any = false;
+    for (std::size_t a = 0; a < attachments_.size(); ++a) {
+        const Attachment& attachment = attachments_[a];
+        if (is_broken(a) || attachment.compliance > 0.0f || attachment.is_in_space) continue;
+        for (const Tie& tie : attachment.ties) {
+            const Vec3<Real> origin(positions[tie.nodes[0]]);
+            Vec3<Real> apart(0);
+            for (std::uint32_t k = 0; k < tie.count; ++k)
+                apart += static_cast<Real>(tie.weights[k]) * (Vec3<Real>(positions[tie.nodes[k]]) - origin);
+            if (!(static_cast<double>(glm::length(apart)) > thicknesses[attachment.object])) continue;
+            for (std::uint32_t k = 0; k < tie.count; ++k) {
+                if (positions[tie.nodes[k]].w != Real(0)) continue;
+                std::uint8_t& blocked = is_blocked[model_->node_objects[tie.nodes[k]]];
+                any = any || blocked == 0;
+                blocked = 1;
+            }
+        }
+    }
+    return any;
+}
+
+template <class Real>
 void AttachmentRows<Real>::end_step() {
     for (State& state : forces_) state.last_motor = state.motor;
     for (std::size_t a = 0; a < attachments_.size(); ++a)

@@ -44,6 +44,11 @@ public:
     /// Objects of attachments that motors move, or hold against something: they do not rest. Motors at a
     /// speed of 0 do not move them.
     std::vector<std::uint32_t> moved_by(std::span<const MotorTarget> motors) const;
+    /// What moves by keyframes waits where what is tied to it cannot follow: where a tie is stretched by more
+    /// than the thickness of its object. @param positions where a step ends @param thicknesses of objects [m]
+    /// @param is_blocked objects; output: these, too @return whether there are more
+    bool block_held(std::span<const Vec4<Real>> positions, std::span<const double> thicknesses,
+                    std::vector<std::uint8_t>& is_blocked) const;
     /// When a step begins.
     struct Start {
         std::span<const Vec4<Real>> positions;     ///< [m]

@@ -330,9 +330,9 @@ void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<
 template <class Real>
 std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
                                             std::span<const Real> compliances, std::span<Vec4<Real>> ends,
-                                            std::size_t checked) {
+                                            std::vector<std::uint8_t>& is_blocked, std::size_t checked) {
     const std::vector<Vec4<Real>> wanted(ends.begin(), ends.end());
-    std::vector<std::uint8_t> is_blocked(model_->objects.size());
+    is_blocked.resize(model_->objects.size());
     has_changed_ = false;
     for (bool any_blocked = true; any_blocked;) {
         std::copy(wanted.begin(), wanted.end(), ends.begin());

@@ -28,12 +28,13 @@ public:
     /// @param pairs all that may cross while nodes keep to `paths`
     /// @param compliances of nodes [m/N], by which a gap is divided; 0: the node does not yield
     /// @param ends input: where nodes are wanted; output: where they go [m]
+    /// @param is_blocked objects whose held nodes stay where they are; output: others, too, that would cross
     /// @param checked how many of the first pairs are known not to cross there
     /// @return surface nodes that do not keep to their paths: these may cross others; then find pairs of
     /// where they end, and run again
     std::vector<std::uint32_t> run(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
                                    std::span<const Real> compliances, std::span<Vec4<Real>> ends,
-                                   std::size_t checked = 0);
+                                   std::vector<std::uint8_t>& is_blocked, std::size_t checked = 0);
 
     /// Whether the last run moved any node.
     bool has_changed() const { return has_changed_; }

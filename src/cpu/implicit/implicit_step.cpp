@@ -178,7 +178,8 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
                         system_.displacements[n] = Vec3<Real>(current.positions[n] - previous.positions[n]);
             }
             gained = gain();
-            if (gained > 0.0) {
+            // What is blocked has pushed as if it was not.
+            if (gained > 0.0 || std::find(blocked_.begin(), blocked_.end(), 1) != blocked_.end()) {
                 stopped = stop_guarded(before_guard, current);
                 gained = gain();
             }
@@ -452,11 +453,20 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
 template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
     const Paths<Real> paths{previous.positions, ends_, static_cast<Real>(tuning::kLeastOfReach)};
+    const std::vector<Vec4<Real>> wanted = current.positions;
+    std::vector<std::uint8_t>& is_blocked = blocked_;
+    is_blocked.clear();
     bool has_changed = false;
     std::size_t checked = 0;
     for (int k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
-            guard_.run(paths, pairs_.pairs(), compliances_, current.positions, checked);
+            guard_.run(paths, pairs_.pairs(), compliances_, current.positions, is_blocked, checked);
+        if (attachments_.block_held(current.positions, surface_->thicknesses, is_blocked)) {
+            current.positions = wanted;
+            checked = 0;
+            has_changed = true;
+            continue;
+        }
         const bool has_lost = pairs_.find_lost(current.positions);
         has_changed = has_changed || guard_.has_changed();
         if (!contacts_ || (strays.empty() && !has_lost)) return has_changed;

@@ -147,6 +147,7 @@ private:
     Islands islands_;
     Real step_ = 0;
     std::vector<double> cavity_drives_;
+    std::vector<std::uint8_t> blocked_;          // objects, in the last guard
     std::vector<Real> compliances_;              // of nodes in contacts, 1 / h_i [m/N]
     Field expected_;                             // displacements without forces [m]
     std::vector<Vec4<Real>> ends_, velocities_;  // velocities: with damping times of this step

@@ -60,6 +60,29 @@ bool SystemSolver<Real>::rests(const Step& step) {
     return true;
 }
 
+// What was blocked is behind its keyframes. It makes up for that no faster than it moves by them, or than
+// bodies' thickness in a frame: else it would hit what blocks it with all that it is behind, in one step.
+template <class Real>
+void SystemSolver<Real>::slow_blocked(Real size) {
+    if (held_at_.empty()) return;
+    const std::vector<double>& thicknesses = step_.surface().thicknesses;
+    const double thickest = *std::max_element(thicknesses.begin(), thicknesses.end());
+    const auto behind = [&](std::uint32_t n) { return Vec3<Real>(current_.positions[n]) - held_at_[n]; };
+    std::vector<Real> farthest(model_->handles.size(), Real(0)),
+        allowed(farthest.size(), static_cast<Real>(thickest / tuning::kFrame) * size);
+    for (const HandleNode& held : model_->handle_nodes) {
+        if (current_.positions[held.node].w != Real(0)) continue;
+        farthest[held.handle] = std::max(farthest[held.handle], glm::length(behind(held.node)));
+        allowed[held.handle] =
+            std::max(allowed[held.handle], size * glm::length(Vec3<Real>(current_.velocities[held.node])));
+    }
+    for (const HandleNode& held : model_->handle_nodes) {
+        const Real most = allowed[held.handle], found = farthest[held.handle];
+        if (current_.positions[held.node].w == Real(0) && found > most)
+            goals_[held.node] -= (Real(1) - most / found) * behind(held.node);
+    }
+}
+
 template <class Real>
 void SystemSolver<Real>::advance_nodes(const Step& step) {
     size_ = step.size;
@@ -71,6 +94,7 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
         if (current_.positions[n].w == Real(0))
             goals_[n] = Vec3<Real>(current_.positions[n]) + size * Vec3<Real>(current_.velocities[n]);
     if (rests(step)) return;
+    slow_blocked(size);
     const std::vector<Vec4<Real>> velocities = current_.velocities;
     const Real shortest = size / static_cast<Real>(tuning::kMostParts);
     StepInput<Real> input{size,         divides_steps_ ? size : Real(0),

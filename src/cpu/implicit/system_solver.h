@@ -41,6 +41,7 @@ protected:
 
 private:
     bool rests(const Step& step);
+    void slow_blocked(Real size);
     void archive(Archive& archive);
     void forget();
     bool restore(std::string_view memory);

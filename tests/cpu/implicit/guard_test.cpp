@@ -32,7 +32,8 @@ protected:
             const cpu::Paths<double> paths{from_, wanted};
             pairs.begin(paths);
             pairs.run(paths);
-            if (guard_().run(paths, pairs.pairs(), compliances_, ends).empty()) return ends;
+            std::vector<std::uint8_t> is_blocked;
+            if (guard_().run(paths, pairs.pairs(), compliances_, ends, is_blocked).empty()) return ends;
         }
         ADD_FAILURE() << "nodes leave their paths";
         return ends;
@@ -95,7 +96,8 @@ TEST_F(GuardTest, TellsWhichNodesEndElsewhere) {
     for (std::size_t n = 0; n < ends.size(); ++n) expected[n].x += 0.05;
     for (std::size_t n = 0; n < ends.size(); ++n) ends[n].x += n == 3 ? 0.02 : n == 4 ? 0.0495 : 0.05;
     const cpu::Paths<double> paths{from_, expected};
-    EXPECT_EQ(guard_().run(paths, {}, compliances_, ends), std::vector<std::uint32_t>{3});
+    std::vector<std::uint8_t> is_blocked;
+    EXPECT_EQ(guard_().run(paths, {}, compliances_, ends, is_blocked), std::vector<std::uint32_t>{3});
 }
 
 }  // namespace

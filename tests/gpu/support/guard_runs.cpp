@@ -193,8 +193,9 @@ Guarded guard_on_cpu(const Wishes& wishes) {
     finder.begin(ways.paths());
     finder.run(ways.paths());
     while (result.runs < tuning::kMostGuards) {
+        std::vector<std::uint8_t> is_blocked;
         const std::vector<std::uint32_t> strays =
-            guard.run(ways.paths(), finder.pairs(), ways.compliances, ends);
+            guard.run(ways.paths(), finder.pairs(), ways.compliances, ends, is_blocked);
         if (++result.runs == 1) result.clipped = guard.clipped_pairs();
         const bool has_lost = finder.find_lost(ends) || wishes.loses_always;
         result.is_changed = result.is_changed || guard.has_changed();
