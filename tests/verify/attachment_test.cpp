@@ -354,6 +354,22 @@ TEST(Attachments, PartsOfAJointPressEachOther) {
     EXPECT_TRUE(press);
 }
 
+// What breaks has not pulled harder than it can: these fly on as they did.
+TEST(Attachments, BreakBeforeTheyPullTooHard) {
+    Scene scene = rigid_scene(0.5, glm::dvec3(0.0));
+    scene.objects = {rigid_box("left", {0.2, 0.2, 0.2}, {-0.2, 0.0, 0.0}),
+                     rigid_box("right", {0.2, 0.2, 0.2}, {0.2, 0.0, 0.0})};
+    scene.objects[0].velocity = {-2.0, 0.0, 0.0};
+    scene.objects[1].velocity = {2.0, 0.0, 0.0};
+    scene.attachments = {
+        {.object = "left", .to = "right", .where = AttachedPoint{{0.0, 0.0, 0.0}}, .break_force = 50.0}};
+    MeasuredRun run(scene);
+    const double energy = run.energy();
+    run.advance(0.2);
+    EXPECT_TRUE(run.is_broken(0));
+    EXPECT_NEAR(run.energy(), energy, 1e-4 * energy);
+}
+
 // In the middle of an impact, of which nothing is left then.
 TEST(Attachments, WhatAHandTouchesMayFallAsleep) {
     Scene scene = scene_of(jelly(1e6), 0.0);

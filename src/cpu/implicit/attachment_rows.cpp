@@ -229,11 +229,16 @@ bool AttachmentRows<Real>::block_held(std::span<const Vec4<Real>> positions,
 }
 
 template <class Real>
-void AttachmentRows<Real>::end_step() {
-    for (State& state : forces_) state.last_motor = state.motor;
-    for (std::size_t a = 0; a < attachments_.size(); ++a)
-        if (glm::length(forces_[a].force) > static_cast<double>(attachments_[a].break_force))
-            forces_[a].is_broken = 1;
+bool AttachmentRows<Real>::break_pulled() {
+    bool any = false;
+    for (std::size_t a = 0; a < attachments_.size(); ++a) {
+        if (is_broken(a) ||
+            !(glm::length(forces_[a].force) > static_cast<double>(attachments_[a].break_force)))
+            continue;
+        forces_[a].is_broken = 1;
+        any = true;
+    }
+    return any;
 }
 
 template class AttachmentRows<float>;

@@ -63,8 +63,12 @@ public:
     /// What they exert at the end of a step. @param slips of rows, s [m] @param step its length [s]
     void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> slips, double step,
               std::span<const std::uint8_t> asleep);
-    /// The step was made: breaks those that exert more than they can.
-    void end_step();
+    /// Breaks those that would exert more than they can in this step. @return whether there are any
+    bool break_pulled();
+    /// The step was made.
+    void end_step() {
+        for (State& state : forces_) state.last_motor = state.motor;
+    }
 
 private:
     struct State {

@@ -170,7 +170,9 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         const TimedStage part(timer, "advance_nodes.guard");
         std::vector<std::uint32_t> stopped;  // bodies
         const std::vector<Vec4<Real>> before_guard = current.positions;
+        Field solved;  // where the guard has moved rigid bodies
         if (guard(previous, current)) {
+            if (!rigid_bodies_.objects().empty()) solved = system_.displacements;
             for (const std::uint32_t o : rigid_bodies_.objects()) {  // joints may be stretched by it
                 const Range& nodes = model_->objects[o].nodes;
                 for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -192,14 +194,15 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             stand_still(previous, current);
             break;
         }
+        if (attachments_.break_pulled()) continue;  // a part with more than they hold was not made
         energy_.settle(islands_, current);
         rows_.remember();
         attachments_.end_step();
         const double gravity = glm::length(glm::dvec3(model_->gravity));
-        if (restitution_.run(
-                {static_cast<double>(input.step), 2.0 * tuning::kRestingFall * gravity, system_.rows,
-                 system_.displacements, previous, energy_.before(), energy_.after()},
-                system_.rigid, current, paces_.struck()))
+        if (restitution_.run({static_cast<double>(input.step), 2.0 * tuning::kRestingFall * gravity,
+                              system_.rows, solved.empty() ? system_.displacements : solved, previous,
+                              energy_.before(), energy_.after()},
+                             system_.rigid, current, paces_.struck()))
             energy_.change();
         for (const std::uint32_t o : stopped) paces_.struck()[o] = 1;
         break;

@@ -139,7 +139,8 @@ double EndReference::measure() {
 // Once: what strays from paths is not found.
 void EndReference::run_guard() {
     const std::vector<glm::dvec4> wanted = to.positions;
-    guard.run({from.positions, ends_}, pairs_.pairs(), compliances_, to.positions);
+    std::vector<std::uint8_t> is_blocked;
+    guard.run({from.positions, ends_}, pairs_.pairs(), compliances_, to.positions, is_blocked);
     is_guarded = !contacts_ && guard.has_changed();
     for (std::size_t n = 0; n < wanted.size(); ++n) {
         if (to.positions[n] == wanted[n]) continue;
