@@ -441,7 +441,8 @@ class Simulator:
         """
         self._core.load_checkpoint(os.fspath(file), None if frame is None else whole_number("frame", frame))
         own = len(self.scene.attachments) - self._attached
-        made = self._core.scene().attachments[own:] if self._attached or len(self.attachments()) > own else []
+        has_more = self._attached > 0 or len(self.attachments()) > own
+        made = cast(Scene, self._core.scene()).attachments[own:] if has_more else []
         self.scene = dataclasses.replace(self.scene, attachments=[*self.scene.attachments[:own], *made])
         self._attached = len(made)
 

@@ -212,11 +212,13 @@ def test_bodies_and_regions():
     body = sim["lower"]
     everything = body.nodes_in(gelatin.BoxRegion((-9, -9, -9), (9, 9, 9)))
     np.testing.assert_array_equal(everything, np.arange(len(body)))
-    # The normal of any length, as in scenes.
-    half = gelatin.HalfSpaceRegion((0, 2, 0), float(body.center[1]))
-    np.testing.assert_array_equal(np.flatnonzero(body.positions[:, 1] <= np.float32(body.center[1])), body.nodes_in(half))
+    height = float(body.center[1]) + 0.013
+    below = body.nodes_in(gelatin.HalfSpaceRegion((0, 1, 0), height))
+    np.testing.assert_array_equal(below, np.flatnonzero(body.positions[:, 1] <= height))
+    assert 0 < len(below) < len(body)
     for region, problem in (
         (gelatin.HalfSpaceRegion((0, 0, 0), 1), "region.plane"),
+        (gelatin.HalfSpaceRegion((0, 2, 0), 0.4), "region.plane.*of length 1"),
         (gelatin.SphereRegion((0, 1, 0), float("nan")), "region.radius"),
         (gelatin.SphereRegion((0, 1, 0), -1), "region.radius"),
     ):
