@@ -32,25 +32,6 @@ TEST(RigidBodies, TumbleWithoutLoss) {
     EXPECT_LT(run.strain(0), 1e-5);
 }
 
-// Faster than a part resolves, against faces.
-TEST(RigidBodies, KeepTheirRestitutionAtFaces) {
-    for (const double restitution : {1.0, 0.6}) {
-        Scene scene = rigid_scene(0.0, glm::dvec3(0.0));
-        scene.collision.restitution = restitution;
-        scene.materials[0].restitution = restitution;
-        scene.objects = {rigid_box("box", {0.1, 0.1, 0.1}, {0.0, 0.0, 0.0})};
-        scene.objects[0].velocity = {10.0, 0.0, 0.0};
-        ColliderDescription wall;
-        wall.shape = BoxShape{{0.1, 1.0, 1.0}};
-        wall.position = {0.55, 0.0, 0.0};
-        wall.restitution = restitution;
-        scene.colliders = {wall};
-        MeasuredRun run(scene);
-        run.advance(0.3);
-        EXPECT_NEAR(run.velocity(0).x, -10.0 * restitution, 0.2) << restitution;
-    }
-}
-
 TEST(RigidBodies, SlideAndHoldByFriction) {
     const auto on_slope = [](double part) {  // of the slope that friction holds
         const double friction = 0.4, angle = std::atan(friction * part);

@@ -170,9 +170,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         const TimedStage part(timer, "advance_nodes.guard");
         std::vector<std::uint32_t> stopped;  // bodies
         const std::vector<Vec4<Real>> before_guard = current.positions;
-        Field solved;  // where the guard has moved rigid bodies
         if (guard(previous, current)) {
-            if (!rigid_bodies_.objects().empty()) solved = system_.displacements;
             for (const std::uint32_t o : rigid_bodies_.objects()) {  // joints may be stretched by it
                 const Range& nodes = model_->objects[o].nodes;
                 for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -181,7 +179,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             }
             gained = gain();
             // What is blocked has pushed as if it was not.
-            if (gained > 0.0 || std::find(blocked_.begin(), blocked_.end(), 1) != blocked_.end()) {
+            if (gained > 0.0 || waits(previous)) {
                 stopped = stop_guarded(before_guard, current);
                 gained = gain();
             }
@@ -199,10 +197,10 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         rows_.remember();
         attachments_.end_step();
         const double gravity = glm::length(glm::dvec3(model_->gravity));
-        if (restitution_.run({static_cast<double>(input.step), 2.0 * tuning::kRestingFall * gravity,
-                              system_.rows, solved.empty() ? system_.displacements : solved, previous,
-                              energy_.before(), energy_.after()},
-                             system_.rigid, current, paces_.struck()))
+        if (restitution_.run(
+                {static_cast<double>(input.step), 2.0 * tuning::kRestingFall * gravity, system_.rows,
+                 system_.displacements, previous, energy_.before(), energy_.after()},
+                system_.rigid, current, paces_.struck()))
             energy_.change();
         for (const std::uint32_t o : stopped) paces_.struck()[o] = 1;
         break;
@@ -592,6 +590,17 @@ ContactForces ImplicitStep<Real>::contact_forces() const {
         }
     }
     return sums.take();
+}
+
+// Whether anything is blocked that would move.
+template <class Real>
+bool ImplicitStep<Real>::waits(const Nodes<Real>& previous) const {
+    return std::any_of(model_->handle_nodes.begin(), model_->handle_nodes.end(), [&](const HandleNode& held) {
+        const std::uint32_t object = model_->node_objects[held.node];
+        return object < blocked_.size() && blocked_[object] != 0 &&
+               previous.positions[held.node].w == Real(0) &&
+               Vec3<Real>(previous.velocities[held.node]) != Vec3<Real>(0);
+    });
 }
 
 // Whether handles move nodes of bodies.

@@ -125,6 +125,7 @@ private:
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
     std::vector<std::uint32_t> stop_guarded(std::span<const Vec4<Real>> wanted, Nodes<Real>& current) const;
     bool moves_bodies(const Nodes<Real>& previous) const;
+    bool waits(const Nodes<Real>& previous) const;
     void finish(const StepInput<Real>& input, const Nodes<Real>& previous, Nodes<Real>& current);
 
     std::shared_ptr<const Model> model_;

@@ -66,20 +66,14 @@ template <class Real>
 void SystemSolver<Real>::slow_blocked(Real size) {
     if (held_at_.empty()) return;
     const std::vector<double>& thicknesses = step_.surface().thicknesses;
-    const double thickest = *std::max_element(thicknesses.begin(), thicknesses.end());
-    const auto behind = [&](std::uint32_t n) { return Vec3<Real>(current_.positions[n]) - held_at_[n]; };
-    std::vector<Real> farthest(model_->handles.size(), Real(0)),
-        allowed(farthest.size(), static_cast<Real>(thickest / tuning::kFrame) * size);
-    for (const HandleNode& held : model_->handle_nodes) {
-        if (current_.positions[held.node].w != Real(0)) continue;
-        farthest[held.handle] = std::max(farthest[held.handle], glm::length(behind(held.node)));
-        allowed[held.handle] =
-            std::max(allowed[held.handle], size * glm::length(Vec3<Real>(current_.velocities[held.node])));
-    }
-    for (const HandleNode& held : model_->handle_nodes) {
-        const Real most = allowed[held.handle], found = farthest[held.handle];
-        if (current_.positions[held.node].w == Real(0) && found > most)
-            goals_[held.node] -= (Real(1) - most / found) * behind(held.node);
+    const auto least =
+        static_cast<Real>(*std::max_element(thicknesses.begin(), thicknesses.end()) / tuning::kFrame);
+    for (std::size_t n = 0; n < goals_.size(); ++n) {
+        if (current_.positions[n].w != Real(0)) continue;
+        const Vec3<Real> behind = Vec3<Real>(current_.positions[n]) - held_at_[n];
+        const Real found = glm::length(behind),
+                   most = size * std::max(least, glm::length(Vec3<Real>(current_.velocities[n])));
+        if (found > most) goals_[n] -= (Real(1) - most / found) * behind;
     }
 }
 
