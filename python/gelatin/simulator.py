@@ -374,10 +374,12 @@ class Simulator:
 
     def _cavity_of(self, cavity: Union[int, str], object: str | None) -> int:
         """Its place in `cavities`. Raises InvalidInput if there is none of this name, or several."""
+        place = None if isinstance(cavity, str) else whole_number("cavity", cavity)
+        if place is not None and object is None:
+            return place
         all_of_them = [(status["object"], status["name"]) for status in self.cavities()]
-        if not isinstance(cavity, str):
-            place = whole_number("cavity", cavity)
-            if object is not None and place < len(all_of_them) and all_of_them[place][0] != object:
+        if place is not None:
+            if place < len(all_of_them) and all_of_them[place][0] != object:
                 raise InvalidInput(f"cavity = {place}: is in '{all_of_them[place][0]}', not in '{object}'")
             return place
         found = [k for k, (owner, name) in enumerate(all_of_them) if name == cavity and object in (None, owner)]

@@ -69,30 +69,32 @@ std::string MadeAttachments::memory(const Scene& scene) const {
     return bytes;
 }
 
+void MadeAttachments::reset(Scene& scene) {
+    all.resize(of_scene);
+    scene.attachments.resize(of_scene);
+    for (Attachment& attachment : all) attachment.is_broken = false;
+}
+
 void MadeAttachments::restore(const std::string& bytes, Scene& scene, const Model& model) {
-    MadeAttachments made;
-    made.of_scene = of_scene;
-    made.all.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(of_scene));
-    for (Attachment& attachment : made.all) attachment.is_broken = false;
+    if (bytes.empty()) return reset(scene);
+    Memory memory;
+    Archive archive = Archive::that_reads(bytes);
+    memory.archive(archive);
+    std::vector<AttachmentDescription> added;
+    if (archive.is_complete()) added = parse_attachments({memory.text.begin(), memory.text.end()});
+    const std::size_t nodes = model.positions.size();
+    const bool fits = archive.is_complete() && memory.sets.size() == added.size() &&
+                      memory.is_broken.size() == of_scene + added.size() &&
+                      std::all_of(memory.sets.begin(), memory.sets.end(), [&](std::uint32_t set) {
+                          return (set + std::size_t(1)) * nodes <= memory.positions.size();
+                      });
+    if (!fits) throw InvalidInput("it has other attachments");
+    MadeAttachments made = *this;
     Scene next = scene;
-    next.attachments.resize(of_scene);
-    if (!bytes.empty()) {
-        Memory memory;
-        Archive archive = Archive::that_reads(bytes);
-        memory.archive(archive);
-        std::vector<AttachmentDescription> added;
-        if (archive.is_complete()) added = parse_attachments({memory.text.begin(), memory.text.end()});
-        const std::size_t nodes = model.positions.size();
-        if (!archive.is_complete() || memory.sets.size() != added.size() ||
-            memory.is_broken.size() != of_scene + added.size())
-            throw InvalidInput("it has other attachments");
-        for (std::size_t k = 0; k < added.size(); ++k) {
-            const std::size_t first = memory.sets[k] * nodes;
-            if (first + nodes > memory.positions.size()) throw InvalidInput("it has other attachments");
-            made.add(added[k], std::span(memory.positions).subspan(first, nodes), next, model);
-        }
-        for (std::size_t a = 0; a < made.all.size(); ++a) made.all[a].is_broken = memory.is_broken[a] != 0;
-    }
+    made.reset(next);
+    for (std::size_t k = 0; k < added.size(); ++k)
+        made.add(added[k], std::span(memory.positions).subspan(memory.sets[k] * nodes, nodes), next, model);
+    for (std::size_t a = 0; a < made.all.size(); ++a) made.all[a].is_broken = memory.is_broken[a] != 0;
     *this = std::move(made);
     scene.attachments = std::move(next.attachments);
 }
@@ -100,7 +102,7 @@ void MadeAttachments::restore(const std::string& bytes, Scene& scene, const Mode
 void MadeAttachments::go_on_from(const MadeAttachments& from, const Scene& from_scene,
                                  const Model& from_model, const State& start, Scene& scene,
                                  const Model& model) {
-    restore({}, scene, model);
+    reset(scene);
     for (std::size_t a = 0; a < from.all.size(); ++a) {
         const AttachmentDescription& description = from_scene.attachments[a];
         if (a < from.of_scene) {
@@ -108,10 +110,10 @@ void MadeAttachments::go_on_from(const MadeAttachments& from, const Scene& from_
             if (same) all[*same].is_broken = from.all[a].is_broken;
             continue;
         }
-        if (from.all[a].is_broken) continue;
-        try {
+        try {  // also what is broken, so that others keep their places
             const State when_made{*from.all[a].positions, from_model.velocities, {}};
             add(description, carried_over(from_model, when_made, model, start).positions, scene, model);
+            all.back().is_broken = from.all[a].is_broken;
         } catch (const InvalidInput& error) {
             log_warning(std::string("no longer attached: ") + error.what());
         }

@@ -27,6 +27,8 @@ struct MadeAttachments {
              const Model& model);
     /// Which are broken, and what programs have made, where nodes were then; empty: nothing.
     std::string memory(const Scene& scene) const;
+    /// As at the start. @param scene output: its attachments
+    void reset(Scene& scene);
     /// Goes back to that. @param scene output: its attachments
     /// @throws InvalidInput if it does not fit; then nothing has changed
     void restore(const std::string& memory, Scene& scene, const Model& model);

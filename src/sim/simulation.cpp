@@ -148,7 +148,7 @@ void Simulation::reset() {
     arms.restart();
     motors.clear();
     cavity_gas.clear();
-    attachments.restore({}, scene, *model);
+    attachments.reset(scene);
     set_attachments();
     take_state(first_state(), {});
 }

@@ -55,6 +55,13 @@ TEST(EnergyBudget, ALaterAccountNarrowsWhatASingleNodeMayHave) {
     EXPECT_GT(budget.most_at(60.5), 10.0 * (1.0 + 200.0));
 }
 
+// In the middle of an impact contacts hold all of it.
+TEST(EnergyBudget, WhatContactsHoldComesBack) {
+    EnergyBudget budget(oscillator(0.0), {0.0, 1e5, 0.0});
+    budget.note({1.0, 0.3, 0.0});
+    EXPECT_GE(budget.most_at(1.01), 10.0 * 1e5);
+}
+
 // A body without gravity, pulled by a force: half of (F t)^2 / M, measured at every frame or never.
 TEST(EnergyBudget, LoadsMayGiveWhatTheyGiveAFreeBody) {
     Body block = test::make_body(test::make_block({2, 2, 2}, {1.0, 1.0, 1.0}));

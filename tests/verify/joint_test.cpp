@@ -197,6 +197,21 @@ TEST(Joints, MotorsGoOnFromACheckpoint) {
     EXPECT_LT(other.joint(0).position, -glm::radians(40.0)) << "it falls";
 }
 
+// 320 J, of which the watch on energy knows nothing.
+TEST(Joints, SpringsGiveWhatTheyHold) {
+    Scene scene = box_on_rail({1.0, 0.0, 0.0});
+    scene.objects[0].rigid->mass = 1.0;
+    scene.attachments[0].spring = JointSpring{.stiffness = 1000.0, .rest = 0.8};
+    MeasuredRun run(scene);
+    double fastest = 0.0;
+    for (int frame = 0; frame < 30; ++frame) {
+        run.advance(1.0 / 60.0);
+        run.statistics();
+        fastest = std::max(fastest, std::abs(run.joint(0).speed));
+    }
+    EXPECT_NEAR(fastest, 0.8 * std::sqrt(1000.0), 2.0);
+}
+
 TEST(Joints, MotorsOfAnyForceStopAtTheirLimits) {
     Scene hinge = bar_on_hinge(), rail = box_on_rail({1.0, 0.0, 0.0});
     hinge.attachments[0].limits = {0.0, 90.0};

@@ -195,10 +195,9 @@ void AttachmentRows<Real>::note(std::span<const ContactRow<Real>> rows, std::spa
         speed = static_cast<double>(glm::dot(slips[r] + row.target, row.normal)) / step;
         // How fast it can stop is known when all of its force moves it, and nothing blocks it.
         const double wanted = static_cast<double>(glm::dot(row.target, row.normal)) / step;
-        const bool is_enough =
-            std::abs(held)<0.999 * static_cast<double>(row.limit), goes = std::abs(speed)> 0.05 *
-                std::abs(wanted) &&
-            (speed - last.speed) * (wanted - last.speed) > 0.0;
+        const double most = 0.999 * static_cast<double>(row.limit), least = 0.05 * std::abs(wanted);
+        const bool is_enough = std::abs(held) < most;
+        const bool goes = std::abs(speed) > least && (speed - last.speed) * (wanted - last.speed) > 0.0;
         acceleration = is_enough || !goes ? last.acceleration : std::abs(speed - last.speed) / step;
     }
 }

@@ -160,7 +160,8 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             const TimedStage part(timer, "advance_nodes.finish");
             finish(input, previous, current);
             paces_.find(system_, asleep_, current);
-            if (moves_bodies(previous)) on_held = system_.elastic_forces();
+            if (any_moves(previous, [&](std::uint32_t o) { return model_->is_body(o); }))
+                on_held = system_.elastic_forces();
             gained = gain();
         }
         if (has_past && gained > 0.0) {
@@ -170,7 +171,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         const TimedStage part(timer, "advance_nodes.guard");
         std::vector<std::uint32_t> stopped;  // bodies
         const std::vector<Vec4<Real>> before_guard = current.positions;
-        if (guard(previous, current)) {
+        if (guard(previous, before_guard, current)) {
             for (const std::uint32_t o : rigid_bodies_.objects()) {  // joints may be stretched by it
                 const Range& nodes = model_->objects[o].nodes;
                 for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -179,7 +180,9 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             }
             gained = gain();
             // What is blocked has pushed as if it was not.
-            if (gained > 0.0 || waits(previous)) {
+            const bool any_waits =
+                any_moves(previous, [&](std::uint32_t o) { return o < blocked_.size() && blocked_[o] != 0; });
+            if (gained > 0.0 || any_waits) {
                 stopped = stop_guarded(before_guard, current);
                 gained = gain();
             }
@@ -442,7 +445,7 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
         compliances_[n] = ends_[n].w > Real(0) ? Real(1) : Real(0);
     });
     detect(from, true, false);
-    if (guard(from, nodes)) return false;
+    if (guard(from, std::vector(nodes.positions), nodes)) return false;
     energy_.begin(from, cavity_drives_);
     energy_.follow(nodes);
     forget();
@@ -452,17 +455,16 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
 // Where a solver wants nodes beyond the paths that pairs were found for, or the guard moves them there, pairs
 // of the new paths are found: those that may cross, since none of them is to press any more.
 template <class Real>
-bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
+bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, const std::vector<Vec4<Real>>& wanted,
+                               Nodes<Real>& current) {
     const Paths<Real> paths{previous.positions, ends_, static_cast<Real>(tuning::kLeastOfReach)};
-    const std::vector<Vec4<Real>> wanted = current.positions;
-    std::vector<std::uint8_t>& is_blocked = blocked_;
-    is_blocked.clear();
+    blocked_.clear();
     bool has_changed = false;
     std::size_t checked = 0;
     for (int k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
-            guard_.run(paths, pairs_.pairs(), compliances_, current.positions, is_blocked, checked);
-        if (attachments_.block_held(current.positions, surface_->thicknesses, is_blocked)) {
+            guard_.run(paths, pairs_.pairs(), compliances_, current.positions, blocked_, checked);
+        if (attachments_.block_held(current.positions, surface_->thicknesses, blocked_)) {
             current.positions = wanted;
             checked = 0;
             has_changed = true;
@@ -592,22 +594,12 @@ ContactForces ImplicitStep<Real>::contact_forces() const {
     return sums.take();
 }
 
-// Whether anything is blocked that would move.
+// Whether a held node moves whose object counts.
 template <class Real>
-bool ImplicitStep<Real>::waits(const Nodes<Real>& previous) const {
+template <class Counts>
+bool ImplicitStep<Real>::any_moves(const Nodes<Real>& previous, const Counts& counts) const {
     return std::any_of(model_->handle_nodes.begin(), model_->handle_nodes.end(), [&](const HandleNode& held) {
-        const std::uint32_t object = model_->node_objects[held.node];
-        return object < blocked_.size() && blocked_[object] != 0 &&
-               previous.positions[held.node].w == Real(0) &&
-               Vec3<Real>(previous.velocities[held.node]) != Vec3<Real>(0);
-    });
-}
-
-// Whether handles move nodes of bodies.
-template <class Real>
-bool ImplicitStep<Real>::moves_bodies(const Nodes<Real>& previous) const {
-    return std::any_of(model_->handle_nodes.begin(), model_->handle_nodes.end(), [&](const HandleNode& held) {
-        return held.node < model_->body_node_count() && previous.positions[held.node].w == Real(0) &&
+        return previous.positions[held.node].w == Real(0) && counts(model_->node_objects[held.node]) &&
                Vec3<Real>(previous.velocities[held.node]) != Vec3<Real>(0);
     });
 }

@@ -122,10 +122,10 @@ private:
     Real deepest() const;
     bool shorten(StepInput<Real>& input) const;
     bool detect(const Nodes<Real>& previous, bool is_shortest, bool own = true);
-    bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
+    bool guard(const Nodes<Real>& previous, const std::vector<Vec4<Real>>& wanted, Nodes<Real>& current);
     std::vector<std::uint32_t> stop_guarded(std::span<const Vec4<Real>> wanted, Nodes<Real>& current) const;
-    bool moves_bodies(const Nodes<Real>& previous) const;
-    bool waits(const Nodes<Real>& previous) const;
+    template <class Counts>
+    bool any_moves(const Nodes<Real>& previous, const Counts& counts) const;
     void finish(const StepInput<Real>& input, const Nodes<Real>& previous, Nodes<Real>& current);
 
     std::shared_ptr<const Model> model_;

@@ -356,6 +356,10 @@ TEST(MakeAttachment, SaysWhatIsWrong) {
     flat.colliders[1].position.y = 0.208;
     EXPECT_EQ(error_of(flat, {.object = "a", .to = "moving"}),
               "attachment[0].to: must not be flat, as 'moving' is, and move");
+    Scene rod = scene;  // forty times as long as it is thick
+    rod.colliders[1].shape = Shape{BoxShape{{0.02, 0.02, 0.8}}};
+    rod.colliders[1].position.y = 0.208;
+    EXPECT_EQ(error_of(rod, {.object = "a", .to = "moving", .where = AttachedPoint{{0.0, 0.2, 0.0}}}), "");
 }
 
 }  // namespace
