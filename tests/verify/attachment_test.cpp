@@ -373,7 +373,11 @@ TEST(Attachments, BreakBeforeTheyPullTooHard) {
 // In the middle of an impact, of which nothing is left then.
 TEST(Attachments, WhatAHandTouchesMayFallAsleep) {
     Scene scene = scene_of(jelly(1e6), 0.0);
-    scene.objects = {box("a", {0.3, 0.3, 0.3}, {0.0, 0.152, 0.0}, 60)};
+    scene.objects = {box("a", {0.3, 0.3, 0.3}, {0.0, 0.152, 0.0})};
+    scene.objects[0].mesher = {};
+    scene.objects[0].shape = BoxShape{glm::dvec3(0.3), glm::ivec3(2)};
+    scene.materials[0].density = 1000.0;
+    scene.collision.self_collision = {};
     ColliderDescription floor, hand;
     floor.shape = PlaneCollider{};
     hand.shape = BoxShape{{0.1, 0.1, 0.1}};
