@@ -31,7 +31,7 @@ struct MadeAttachments {
     void reset(Scene& scene);
     /// Goes back to that. @param scene output: its attachments
     /// @throws InvalidInput if it does not fit; then nothing has changed
-    void restore(const std::string& memory, Scene& scene, const Model& model);
+    void restore(const std::string& bytes, Scene& scene, const Model& model);
     /// Takes over from another simulation what is broken of attachments that have the name, the object and
     /// the kind of one there; and what programs have made there, as far as it can be made here.
     /// @param start of this simulation @param scene output: its attachments
