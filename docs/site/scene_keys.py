@@ -14,7 +14,7 @@ FUNCTION = re.compile(r"^(?:inline )?(?:[\w:<>, ]+?)[ &*](\w+)\(([^;{}]*)\)\s*(?
 METHOD = re.compile(r"^    (?:[\w:<>, ]+?)[ &*](operator\(\)|\w+)\(([^;{}]*)\)\s*const \{\n(.*?)^    \}", re.MULTILINE | re.DOTALL)
 LIMIT = re.compile(r'constexpr Limit (k\w+)\{"((?:[^"\\]|\\.)*)"')
 CALL = re.compile(
-    r"\b(?P<reader>\w+)\.(?P<method>read|read_direction|read_names|read_two_texts|read_two_points|require|require_one_of|table|tables|find|check)"
+    r"\b(?P<reader>\w+)\.(?P<method>read|read_direction|read_name|read_names|read_two_texts|read_two_points|require|require_one_of|table|tables|find|check)"
     r"\((?P<arguments>(?:[^()]|\((?:[^()]|\([^()]*\))*\))*)\)"
 )
 NESTED = re.compile(r"(?<![.\w])(?P<function>(?:read|require)_\w+)\((?:std::move\()?\*?(?:std::move\()?\*?(?P<reader>\w+)\b(?!\.)")
@@ -221,7 +221,7 @@ class Code:
             key.type, key.allowed = "[[x, y, z], [x, y, z]]", f"two {STRINGS.findall(arguments[1])[0]}"
         elif method in ("table", "tables"):
             key.is_table, key.type = True, "table" if method == "table" else "list of tables"
-        if method == "find" or method not in ("read", "read_direction", "read_names", "table", "tables"):
+        if method == "find" or method not in ("read", "read_direction", "read_name", "read_names", "table", "tables"):
             return
         if len(arguments) < 2:
             return

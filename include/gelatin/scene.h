@@ -427,12 +427,14 @@ struct ColliderDescription {
     Interpolation interpolation = Interpolation::linear;
     std::optional<glm::dvec3> pivot = {};  ///< about which it rotates and scales [m]; empty: its position
     glm::dvec3 surface_velocity{0.0};      ///< of the surface within itself, as of a belt [m/s]
-    std::string name = {};  ///< in messages and statistics; empty: "collider 1", by its place in the scene
-    double scale = 1.0;     ///< > 0, applied first
+    /// In messages and statistics; no two colliders have the same; empty: "collider 1", by its place.
+    std::string name = {};
+    double scale = 1.0;                               ///< > 0, applied first
     WhenBlocked when_blocked = WhenBlocked::goes_on;  ///< `stops` needs keyframes or an animation
     std::optional<Axis> up = {};                      ///< as ObjectDescription::up; not for planes
     /// In addition to keyframes; empty: its shape does not change.
     std::optional<AnimationDescription> animation = {};
+    int line = 0;  ///< in the scene file, for later messages
 };
 
 /// A ball joint. The point moves with what is there of both sides.

@@ -247,7 +247,7 @@ class Collider:
     pivot: Vector | None = None
     #: of the surface within itself, as of a belt [m/s]
     surface_velocity: Vector = (0.0, 0.0, 0.0)
-    #: in messages and statistics; empty: "collider 1", by its place in the scene
+    #: in messages and statistics; no two colliders have the same; empty: "collider 1", by its place in the scene
     name: str = ""
     #: > 0, applied first
     scale: float = 1.0
@@ -257,6 +257,7 @@ class Collider:
     up: Literal["x", "y", "z"] | None = None
     #: how its vertices move, in addition to keyframes; None: its shape does not change; with contact, and not for planes
     animation: Animation | None = None
+    line: int = field(default=0, repr=False)
 
 
 @dataclass(slots=True)

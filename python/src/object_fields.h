@@ -266,7 +266,7 @@ struct Fields<ColliderDescription> {
     static constexpr const char* kClass = "Collider";
     static void visit(ColliderDescription& c, auto&& field) {
         auto& [shape, position, rotation, friction, restitution, keyframes, interpolation, pivot,
-               surface_velocity, name, scale, when_blocked, up, animation] = c;
+               surface_velocity, name, scale, when_blocked, up, animation, line] = c;
         field("shape", shape);
         field("position", position);
         field("rotation", rotation);
@@ -281,6 +281,7 @@ struct Fields<ColliderDescription> {
         field("when_blocked", when_blocked);
         field("up", up);
         field("animation", animation);
+        field("line", line);
     }
 };
 

@@ -77,7 +77,7 @@ def scene_with_everything():
     scene.add_collider(gelatin.Plane((1.0, 0.0, 0.0), 0.5))
     scene.colliders.append(
         gelatin.Collider(
-            gelatin.Sphere(), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 0.7, 0.1, frames, "smooth", (1.0, 0.0, 1.0), (2.0, 0.0, 2.0), "belt", 3.0, "stops", up="x"
+            gelatin.Sphere(), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 0.7, 0.1, frames, "smooth", (1.0, 0.0, 1.0), (2.0, 0.0, 2.0), "belt", 3.0, "stops", up="x", line=2
         )
     )
     for source in (

@@ -302,19 +302,13 @@ const Material& find_material(const Scene& scene, const std::string& name) {
     return *found;
 }
 
-// Readers of meshes do not know which object wants a file that is not there.
 template <class Make>
 auto with_file(const Scene& scene, const ObjectDescription& object, const Make& make) {
     try {
         return make();
     } catch (const InvalidInput& error) {
-        const auto* shape = std::get_if<FileShape>(&object.shape);
-        const bool is_missing = shape != nullptr && error.problem().file == shape->file.string() &&
-                                !std::filesystem::exists(shape->file);
-        if (!is_missing) throw;
-        throw InvalidInput({scene.file.string(), object.line,
-                            fmt::format("{}.{}.shape.file", table_name(object), object.name),
-                            shape->file.string(), error.problem().problem});
+        const std::string field = fmt::format("{}.{}.shape", table_name(object), object.name);
+        throw said_of_shape(scene.file, object.line, field, object.shape, error);
     }
 }
 

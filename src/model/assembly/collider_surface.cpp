@@ -13,6 +13,7 @@
 #include "model/assembly/draw_surface.h"
 #include "model/assembly/make_animation.h"
 #include "model/collision/box_tree.h"
+#include "model/scene/field_path.h"
 #include "model/spring_packing.h"
 #include "model/transform.h"
 
@@ -42,13 +43,28 @@ std::vector<std::uint32_t> arrange(SurfaceMesh& mesh) {
     return earlier;
 }
 
-// Gives a surface the vertices that its animation has at the start. @pre it is as its shape has it
-void animate(const Scene& scene, const AnimationDescription& description, const Shape& shape,
-             ColliderSurface& surface) {
+// Not placed yet.
+SurfaceMesh make_surface(const Scene& scene, const FieldPath& field, const Shape& shape,
+                         const ColliderSurface& of, ObjectMesher& mesher) {
+    const std::string place = describe(field / "shape", of.description.name);
+    SurfaceMesh mesh;
     try {
-        surface.animation = make_animation(description, shape, surface.mesh);
+        mesh = mesher.surface(shape, of.name);
     } catch (const InvalidInput& error) {
-        throw said_of(scene.file, 0, surface.name + ".animation", error);
+        throw said_of_shape(scene.file, of.description.line, place, shape, error);
+    }
+    if (mesh.faces.empty())
+        throw InvalidInput({scene.file.string(), of.description.line, place, {}, "has no faces"});
+    return mesh;
+}
+
+// Gives a surface the vertices that its animation has at the start. @pre it is as its shape has it
+void animate(const Scene& scene, const FieldPath& field, const Shape& shape, ColliderSurface& surface) {
+    const ColliderDescription& collider = surface.description;
+    try {
+        surface.animation = make_animation(*collider.animation, shape, surface.mesh);
+    } catch (const InvalidInput& error) {
+        throw said_of(scene.file, collider.line, describe(field / "animation", collider.name), error);
     }
     if (surface.animation->motion)
         surface.mesh.positions = surface.animation->arms(surface.animation->motion->at(0.0));
@@ -139,10 +155,9 @@ std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene, ObjectMe
         const auto* shape = std::get_if<Shape>(&collider.shape);
         if (shape == nullptr) continue;
         ColliderSurface surface{name_of_collider(collider, c), {}, collider};
-        surface.mesh = mesher.surface(*shape, surface.name);
-        if (surface.mesh.faces.empty())
-            throw InvalidInput({scene.file.string(), 0, surface.name + ".shape", {}, "has no faces"});
-        if (collider.animation) animate(scene, *collider.animation, *shape, surface);
+        const FieldPath field("collider", c);
+        surface.mesh = make_surface(scene, field, *shape, surface, mesher);
+        if (collider.animation) animate(scene, field, *shape, surface);
         const glm::dquat rotation = orientation_of(collider, scene.up);
         for (glm::dvec3& p : surface.mesh.positions) p = rotation * (collider.scale * p) + collider.position;
         const std::vector<std::uint32_t> earlier = arrange(surface.mesh);

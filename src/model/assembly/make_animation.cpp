@@ -156,6 +156,21 @@ InvalidInput said_of(const fs::path& scene, int line, const std::string& field, 
     return InvalidInput({scene.string(), line, field, file, InvalidInput(problem).what()});
 }
 
+// Some formats have a second file.
+InvalidInput said_of_shape(const fs::path& scene, int line, const std::string& field, const Shape& shape,
+                           const InvalidInput& error) {
+    const InputProblem& problem = error.problem();
+    if (std::holds_alternative<TextShape>(shape) && problem.file.empty() && !problem.field.empty())
+        return InvalidInput(
+            {scene.string(), line, field + "." + problem.field, problem.value, problem.problem});
+    const auto* of = std::get_if<FileShape>(&shape);
+    const fs::path missing = problem.file;
+    if (of == nullptr || missing.empty() || fs::is_regular_file(missing)) return error;
+    const bool is_same = missing == of->file;
+    return InvalidInput(
+        {scene.string(), line, field + ".file", of->file.string(), is_same ? problem.problem : error.what()});
+}
+
 BodySkeleton::BodySkeleton(const SkeletonDescription& skeleton, const ObjectDescription& object,
                            Axis scene_up)
     : radius_(skeleton.radius / object.scale) {

@@ -24,6 +24,12 @@ HandleAnimation make_animation(const AnimationDescription& description, const Sh
 InvalidInput said_of(const std::filesystem::path& scene, int line, const std::string& field,
                      const InvalidInput& error);
 
+/// An error of a shape's mesh. Who makes meshes does not know which object wants a file that is not there, or
+/// a text that a font does not have: that is said of `field`.
+/// @param field of the scene, of the shape
+InvalidInput said_of_shape(const std::filesystem::path& scene, int line, const std::string& field,
+                           const Shape& shape, const InvalidInput& error);
+
 /// The bones of a skeleton where an object is placed.
 class BodySkeleton {
 public:

@@ -172,6 +172,9 @@ ColliderDescription read_collider(TableReader& reader, const CollisionSettings& 
     ColliderDescription collider;
     collider.friction = collision.friction;
     collider.restitution = collision.restitution;
+    collider.line = reader.line();
+    reader.read_name("name", collider.name);
+    if (is_plain_name(collider.name)) reader.set_path("collider." + collider.name);
     reader.require({"shape"});
     TableReader shape = *reader.table("shape");
     const std::string kind = shape.require_one_of({"plane", "box", "sphere", "capsule", "text", "file"});
@@ -184,7 +187,6 @@ ColliderDescription read_collider(TableReader& reader, const CollisionSettings& 
         collider.shape = read_shape(shape, kind, folder);
     }
     shape.finish();
-    reader.read("name", collider.name);
     reader.read("position", collider.position);
     reader.read("rotation", collider.rotation);
     collider.up = read_up(reader);

@@ -20,7 +20,7 @@ CavityKeyframe read_cavity_keyframe(TableReader reader) {
 CavityDescription read_cavity(TableReader reader) {
     CavityDescription cavity;
     cavity.line = reader.line();
-    reader.read("name", cavity.name);
+    reader.read_name("name", cavity.name);
     if (const auto region = reader.table("region")) cavity.region = read_region(*region);
     reader.read("law", cavity.law, {{"sealed", GasLaw::sealed}, {"constant", GasLaw::constant}});
     reader.read("pressure", cavity.pressure);

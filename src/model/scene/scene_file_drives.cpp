@@ -97,7 +97,7 @@ void read_where(TableReader& reader, AttachmentDescription& attachment) {
 AttachmentDescription read_attachment(TableReader& reader) {
     AttachmentDescription attachment;
     attachment.line = reader.line();
-    reader.read("name", attachment.name);
+    reader.read_name("name", attachment.name);
     if (is_plain_name(attachment.name)) reader.set_path("attachment." + attachment.name);
     reader.require({"object"});
     reader.read("object", attachment.object);

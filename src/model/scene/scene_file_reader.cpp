@@ -208,6 +208,11 @@ void TableReader::read(const char* key, std::string& value) {
     value = text->get();
 }
 
+void TableReader::read_name(const char* key, std::string& name) {
+    read(key, name);
+    if (has(key) && name.empty()) fail(key, "must not be empty");
+}
+
 void TableReader::read(const char* key, glm::dvec2& value) {
     read_numbers(key, value);
 }

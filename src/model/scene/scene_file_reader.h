@@ -61,6 +61,8 @@ public:
     void read(const char* key, bool& value);
     void read(const char* key, std::optional<bool>& value);
     void read(const char* key, std::string& value);
+    /// A name, which may be left out, but must not be empty.
+    void read_name(const char* key, std::string& name);
     void read(const char* key, glm::dvec2& value);
     void read(const char* key, glm::dvec3& value);
     void read(const char* key, glm::ivec3& value);

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "model/scene/names.h"
@@ -29,13 +28,12 @@ public:
     AttachmentCheck(const ValueChecks& checks, const Scene& scene) : checks_(checks), scene_(scene) {
         for (const ObjectDescription& object : scene.objects) objects_.emplace(object.name, &object);
         for (const ColliderDescription& collider : scene.colliders)
-            if (!collider.name.empty()) ++colliders_[collider.name];
+            if (!collider.name.empty()) colliders_.insert(collider.name);
     }
 
     void run(const FieldPath& field, const AttachmentDescription& attachment) const {
         if (!is_implicit(scene_.simulation.solver))
             checks_.fail(field, "", "needs simulation.solver = \"implicit\"");
-        if (!attachment.name.empty()) checks_.check_text(field / "name", attachment.name);
         check_object(field / "object", attachment.object);
         if (!attachment.to.empty()) check_to(field / "to", attachment);
         check_where(field, attachment);
@@ -56,16 +54,11 @@ private:
     // A name of an object and of colliders is the object's.
     void check_to(const FieldPath& field, const AttachmentDescription& attachment) const {
         const std::string& name = attachment.to;
-        const auto collider = colliders_.find(name);
-        if (name == attachment.object || (!objects_.contains(name) && collider == colliders_.end())) {
+        if (name == attachment.object || (!objects_.contains(name) && !colliders_.contains(name))) {
             const std::vector<std::string> names = names_but(attachment.object);
             checks_.fail(field, text_of(name),
                          fmt::format("must be another object's name or a collider's{}; {}",
                                      suggestion(name, names), those_there(names)));
-        }
-        if (!objects_.contains(name) && collider->second > 1) {
-            checks_.fail(field, text_of(name),
-                         fmt::format("must be the name of one collider, and {} have it", collider->second));
         }
     }
 
@@ -95,7 +88,7 @@ private:
             if (other.name != object) names.push_back(other.name);
         for (const ColliderDescription& collider : scene_.colliders) {
             const std::string& name = collider.name;
-            if (!name.empty() && !objects_.contains(name) && colliders_.at(name) == 1) names.push_back(name);
+            if (!name.empty() && !objects_.contains(name)) names.push_back(name);
         }
         return names;
     }
@@ -103,7 +96,7 @@ private:
     const ValueChecks& checks_;
     const Scene& scene_;
     std::unordered_map<std::string_view, const ObjectDescription*> objects_;
-    std::unordered_map<std::string_view, int> colliders_;  // how many have this name
+    std::unordered_set<std::string_view> colliders_;  // names
 };
 
 }  // namespace
@@ -111,19 +104,9 @@ private:
 void check_attachments(const ValueChecks& checks, const Scene& scene) {
     if (scene.attachments.empty()) return;
     const AttachmentCheck check(checks, scene);
-    std::map<std::string, int, std::less<>> lines;  // by name; those without one are called by their place
     for (std::size_t a = 0; a < scene.attachments.size(); ++a)
-        if (scene.attachments[a].name.empty())
-            lines.emplace(fmt::format("attachment {}", a + 1), scene.attachments[a].line);
-    for (std::size_t a = 0; a < scene.attachments.size(); ++a) {
-        const AttachmentDescription& attachment = scene.attachments[a];
-        const FieldPath field("attachment", a);
-        check.run(field, attachment);
-        if (attachment.name.empty()) continue;
-        const auto [taken, is_new] = lines.emplace(attachment.name, attachment.line);
-        if (!is_new)
-            checks.fail(field / "name", text_of(attachment.name), name_taken("attachment", taken->second));
-    }
+        check.run(FieldPath("attachment", a), scene.attachments[a]);
+    check_optional_names(checks, FieldPath("attachment"), "attachment", scene.attachments);
 }
 
 }  // namespace gelatin

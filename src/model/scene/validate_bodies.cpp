@@ -77,7 +77,6 @@ public:
         check_keyframes(checks_, field / "keyframes", collider.keyframes);
         checks_.check(field / "pivot", collider.pivot);
         checks_.check(field / "surface_velocity", collider.surface_velocity);
-        if (!collider.name.empty()) checks_.check_text(field / "name", collider.name);
         if (std::holds_alternative<PlaneCollider>(collider.shape)) check_plane(field, collider);
         if (!has_contact_) check_solid(field, collider);
         check_when_blocked(checks_, field / "when_blocked", collider.when_blocked,
@@ -274,6 +273,7 @@ void check_colliders(const ValueChecks& checks, const Scene& scene) {
     const ColliderCheck check(checks, scene.has_contact());
     for (std::size_t c = 0; c < scene.colliders.size(); ++c)
         check.run(FieldPath("collider", c), scene.colliders[c]);
+    check_optional_names(checks, FieldPath("collider"), "collider", scene.colliders);
 }
 
 }  // namespace gelatin

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-#include <unordered_map>
-
-#include "model/scene/names.h"
 #include "model/scene/validate_bodies.h"
 
 namespace gelatin {
@@ -50,7 +46,6 @@ void check_gas(const ValueChecks& checks, const FieldPath& field, const CavityDe
 
 void check_cavities(const ValueChecks& checks, const FieldPath& field,
                     const std::vector<CavityDescription>& cavities, SolverKind solver) {
-    std::unordered_map<std::string_view, int> lines;  // by name
     for (std::size_t c = 0; c < cavities.size(); ++c) {
         const CavityDescription& cavity = cavities[c];
         const FieldPath place = field[c];
@@ -62,11 +57,8 @@ void check_cavities(const ValueChecks& checks, const FieldPath& field,
         if (cavity.law == GasLaw::constant && cavity.amount != 1.0)
             checks.fail(place / "amount", text_of(cavity.amount), "is only for law = \"sealed\"");
         check_cavity_keyframes(checks, place / "keyframes", cavity);
-        if (cavity.name.empty()) continue;
-        checks.check_text(place / "name", cavity.name);
-        const auto [taken, is_new] = lines.emplace(cavity.name, cavity.line);
-        if (!is_new) checks.fail(place / "name", text_of(cavity.name), name_taken("cavity", taken->second));
     }
+    check_optional_names(checks, field, "cavity", cavities);
 }
 
 }  // namespace gelatin

@@ -164,6 +164,7 @@ std::string name_at(const Scene& scene, const FieldPath& path) {
     const std::string_view list = path.steps().front().key;
     if (list == "material") return scene.materials[index].name;
     if (list == "attachment") return scene.attachments[index].name;
+    if (list == "collider") return scene.colliders[index].name;
     return list == "object" || list == "rigid" ? scene.objects[index].name : std::string();
 }
 

@@ -18,7 +18,7 @@ using ReportProblem =
 /// in the order of sections, materials, objects, colliders and attachments.
 void validate(const Scene& scene, const ReportProblem& report);
 
-/// The name of the material, object or attachment that the path starts with; else empty.
+/// The name of the material, object, collider or attachment that the path starts with; else empty.
 std::string name_at(const Scene& scene, const FieldPath& path);
 
 }  // namespace gelatin

@@ -174,5 +174,35 @@ TEST(BuildModel, SaysWhichObjectsPinsHoldNothing) {
     }
 }
 
+// Who makes meshes does not know where in a scene they are named.
+TEST(BuildModel, AFileThatIsMissingIsNamedByTheScene) {
+    Scene scene;
+    scene.file = "scene.toml";
+    scene.materials.emplace_back().name = "jelly";
+    ObjectDescription& object = scene.objects.emplace_back();
+    object.name = "ball";
+    object.material = "jelly";
+    object.line = 4;
+    const auto error_of = [&](const Shape& shape) -> std::string {
+        object.shape = shape;
+        try {
+            build_model(scene);
+        } catch (const InvalidInput& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(error_of(FileShape{"gone.obj"}),
+              "scene.toml:4: object.ball.shape.file = gone.obj: no such file");
+    EXPECT_EQ(error_of(FileShape{"gone.ele"}),
+              "scene.toml:4: object.ball.shape.file = gone.ele: gone.node: no such file");
+    EXPECT_THAT(error_of(TextShape{.text = "A", .font = "gone.ttf"}),
+                testing::StartsWith(
+                    "scene.toml:4: object.ball.shape.font = \"gone.ttf\": this font is not installed"));
+    object.rigid.emplace();
+    EXPECT_EQ(error_of(FileShape{"gone.stl"}),
+              "scene.toml:4: rigid.ball.shape.file = gone.stl: no such file");
+}
+
 }  // namespace
 }  // namespace gelatin

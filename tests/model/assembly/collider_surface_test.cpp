@@ -139,11 +139,29 @@ TEST(ColliderSurface, IsSolidWithoutContact) {
 TEST(ColliderSurface, RefusesFilesThatCannotBeRead) {
     const TemporaryFolder folder;
     ColliderDescription collider;
-    collider.shape = Shape{FileShape{folder.path() / "missing.obj"}};
-    EXPECT_THROW(make_collider_surfaces(scene_with({collider})), InvalidInput);
+    const auto error_of = [&](const std::string& name) -> std::string {
+        collider.shape = Shape{FileShape{folder.path() / name}};
+        collider.line = 7;
+        Scene scene = scene_with({ColliderDescription{}, collider});
+        scene.file = "scene.toml";
+        try {
+            make_collider_surfaces(scene);
+        } catch (const InvalidInput& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    const std::string place = folder.path().string();
+    EXPECT_EQ(error_of("missing.obj"),
+              "scene.toml:7: collider[1].shape.file = " + place + "/missing.obj: no such file");
+    collider.name = "wall";
+    EXPECT_EQ(error_of("missing.ele"), "scene.toml:7: collider.wall.shape.file = " + place +
+                                           "/missing.ele: " + place + "/missing.node: no such file");
+    std::filesystem::create_directory(folder.path() / "a.obj");
+    EXPECT_EQ(error_of("a.obj"),
+              "scene.toml:7: collider.wall.shape.file = " + place + "/a.obj: is a folder, not a file");
     write_file(folder.path() / "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
-    collider.shape = Shape{FileShape{folder.path() / "points.obj"}};
-    EXPECT_THROW(make_collider_surfaces(scene_with({collider})), InvalidInput);
+    EXPECT_EQ(error_of("points.obj"), place + "/points.obj: has 3 vertices and no faces");
 }
 
 }  // namespace

@@ -215,6 +215,20 @@ TEST_F(SceneFileBodies, RefusesWrongColliders) {
     EXPECT_EQ(collider("shape = {sphere = 1}\nrestitution = 2"),
               "scene.toml:6: collider[0].restitution = 2: must be from 0 to 1");
     EXPECT_EQ(collider("friction = 1"), "scene.toml:4: collider[0]: needs \"shape\"");
+    const std::string wall = "name = 'wall'\nshape = {plane = [0, 1, 0]}\n";
+    EXPECT_EQ(collider(wall + "[[collider]]\n" + wall),
+              "scene.toml:8: collider.wall.name = \"wall\": is taken by the collider on line 4");
+}
+
+// Those who need no name have none, or a real one.
+TEST_F(SceneFileBodies, RefusesEmptyNames) {
+    const std::string ball(kBall);
+    EXPECT_EQ(error(ball + "[[collider]]\nname = ''\nshape = {plane = [0, 1, 0]}"),
+              "scene.toml:5: collider[0].name = \"\": must not be empty");
+    EXPECT_EQ(error(ball + "[[attachment]]\nname = ''\nobject = 'ball'\npoint = [0, 0, 0]"),
+              "scene.toml:5: attachment[0].name = \"\": must not be empty");
+    EXPECT_EQ(object_error("shape = {sphere = 1}\ncavity = [{name = ''}]"),
+              "scene.toml:5: object.ball.cavity[0].name = \"\": must not be empty");
 }
 
 }  // namespace

@@ -41,11 +41,6 @@ const Rule kAttachmentRules[] = {
      "attachment[0].to = \"ceiling\": must be another object's name or a collider's; there is beam"},
     {"to_itself", "object = 'ball'\nto = 'ball'", BREAKS(add_attachment(s).to = "ball"),
      "attachment[0].to = \"ball\": must be another object's name or a collider's; there is beam"},
-    {"to_one_of_two",
-     "object = 'ball'\nto = 'wall'\n[[collider]]\nname = 'wall'\nshape = {plane = [0, 1, 0]}\n"
-     "[[collider]]\nname = 'wall'\nshape = {plane = [1, 0, 0]}",
-     BREAKS(add_attachment(s).to = "wall"; add_named_colliders(s, {"wall", "wall"})),
-     "attachment[0].to = \"wall\": must be the name of one collider, and 2 have it"},
     {"nowhere", "object = 'ball'", BREAKS(add_attachment(s).to = ""),
      "attachment[0]: needs \"to\", or one of region, point, line, rail, universal and distance"},
     {"region", "object = 'ball'\nregion = {box = [[0, 0, 0], [1, -1, 1]]}",
@@ -108,9 +103,8 @@ TEST_F(ValidateAttachments, TakesSoundOnes) {
         "no error");
 }
 
-// Then it does not matter how many colliders have it.
 TEST_F(ValidateAttachments, ANameOfBothIsTheObjects) {
-    EXPECT_EQ(error_of(BREAKS(add_attachment(s); add_named_colliders(s, {"beam", "beam"}))), "no error");
+    EXPECT_EQ(error_of(BREAKS(add_attachment(s); add_named_colliders(s, {"beam"}))), "no error");
     EXPECT_EQ(error_of(BREAKS(add_attachment(s).to = "ball"; add_named_colliders(s, {"ball", "", "wall"}))),
               "attachment[0].to = \"ball\": must be another object's name or a collider's (did you mean "
               "\"wall\"?); there is beam and wall");

@@ -289,6 +289,18 @@ TEST_F(Validation, NamesAreFree) {
               "material.jelly.name = \"jelly\": is taken by another material");
     EXPECT_EQ(error_of(BREAKS(s.objects.push_back(s.objects[0]))),
               "object.ball.name = \"ball\": is taken by another object");
+    const auto add_colliders = [](const std::vector<std::string>& names) {
+        return [names](Scene& s) {
+            for (const std::string& name : names) s.colliders.emplace_back().name = name;
+        };
+    };
+    EXPECT_EQ(error_of(add_colliders({"", "", "ball"})), "no error") << "an object may have it, too";
+    EXPECT_EQ(error_of(add_colliders({"wall", "floor", "wall"})),
+              "collider.wall.name = \"wall\": is taken by another collider");
+    EXPECT_EQ(error_of(add_colliders({"collider 2", ""})),
+              "collider.collider 2.name = \"collider 2\": is taken by another collider");
+    EXPECT_EQ(error_of(add_colliders({"a\nb"})),
+              "collider[0].name = \"a\\nb\": must not have line breaks or other control characters");
 }
 
 // A file's directions are made unit as they are read.
