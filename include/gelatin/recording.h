@@ -23,9 +23,10 @@ public:
     /// As finish(), but problems go to the log.
     ~RecordingWriter();
 
-    /// Appends the simulator's present frame. @pre it is the simulator of the constructor, and later than
-    /// what was written before
-    /// @throws Diverged as Simulator::check; SystemError if this or an earlier frame could not be written
+    /// Appends the simulator's present frame. Frames ascend: after a reset, or an earlier checkpoint, another
+    /// recording begins. @pre it is the simulator of the constructor
+    /// @throws InvalidInput unless the frame is later than those written before; Diverged as
+    ///   Simulator::check; SystemError if this or an earlier frame could not be written
     void write(const Simulator& simulator);
 
     /// Waits until all frames are written. @throws SystemError
@@ -48,7 +49,7 @@ public:
     const Scene& scene() const;
 
     std::size_t frame_count() const;       ///< at least 1
-    int frame(std::size_t index) const;    ///< number of the frame in its run
+    int frame(std::size_t index) const;    ///< number of the frame in its run; ascending
     double time(std::size_t index) const;  ///< [s]
     /// The index of a frame by its number. @throws InvalidInput naming those that there are
     std::size_t index_of(int frame) const;

@@ -12,8 +12,8 @@
 namespace gelatin {
 namespace {
 
-// The file is this header, then the arrays of the state, those of the handles, of cavities, the solver's
-// memory and what programs want of handles, one after the other.
+// The file is this header, then the arrays of the state, those of the handles, the solver's memory and what
+// programs have set, one after the other.
 struct Header {
     char magic[8];
     std::uint32_t version;
@@ -22,16 +22,15 @@ struct Header {
     std::uint64_t nodes;
     std::uint64_t arrays;      // 2, or 3 with earlier velocities
     std::uint64_t handles;     // in the arrays of drags and delays; 0 if nothing is dragged or late
-    std::uint64_t cavities;    // in the array of their drives; 0 if none is set
     std::uint64_t topology;    // hash of the model's topology
     std::uint64_t memory;      // bytes of the solver's memory
     std::uint64_t programmed;  // bytes of Checkpoint::programmed
     std::uint64_t checksum;    // hash of all that follows
 };
-static_assert(sizeof(Header) == 88 && sizeof(Drag) == 56);
+static_assert(sizeof(Header) == 80 && sizeof(Drag) == 56);
 
 constexpr char kMagic[8] = {'G', 'E', 'L', 'A', 'C', 'K', 'P', 'T'};
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 template <class T>
 std::uint64_t hash(const std::vector<T>& values, std::uint64_t seed) {
@@ -96,7 +95,6 @@ void write_checkpoint(const std::filesystem::path& file, const Model& model, con
         append(for_handles(checkpoint.drag_targets, handles), arrays);
         append(for_handles(checkpoint.delays, handles), arrays);
     }
-    append(checkpoint.cavity_drives, arrays);
     arrays += state.memory + checkpoint.programmed;
     Header header{};
     std::memcpy(header.magic, kMagic, sizeof(kMagic));
@@ -106,7 +104,6 @@ void write_checkpoint(const std::filesystem::path& file, const Model& model, con
     header.nodes = state.positions.size();
     header.arrays = count;
     header.handles = handles;
-    header.cavities = checkpoint.cavity_drives.size();
     header.memory = state.memory.size();
     header.programmed = checkpoint.programmed.size();
     header.topology = topology_hash(model);
@@ -129,11 +126,9 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, const Model& model
     }
     if (header.handles != 0 && header.handles != model.handles.size())
         refuse(file, "was made from a scene with other pins or handles");
-    if (header.cavities != 0 && header.cavities != model.cavities.size())
-        refuse(file, "was made from a scene with other cavities");
     const std::size_t bytes = header.arrays * model.positions.size() * sizeof(glm::vec4) +
-                              header.handles * (2 * sizeof(Drag) + sizeof(double)) +
-                              header.cavities * sizeof(double) + header.memory + header.programmed;
+                              header.handles * (2 * sizeof(Drag) + sizeof(double)) + header.memory +
+                              header.programmed;
     if (header.arrays < 2 || header.arrays > 3 || content.size() != sizeof(Header) + bytes)
         refuse(file, "is damaged: it has the wrong size");
     const char* next = content.data() + sizeof(Header);
@@ -149,7 +144,6 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, const Model& model
     take(next, header.handles, checkpoint.drags);
     take(next, header.handles, checkpoint.drag_targets);
     take(next, header.handles, checkpoint.delays);
-    take(next, header.cavities, checkpoint.cavity_drives);
     state.memory.assign(next, header.memory);
     checkpoint.programmed.assign(next + header.memory, header.programmed);
     checkpoint.drags.resize(model.handles.size());

@@ -18,9 +18,7 @@ struct Checkpoint {
     State state;
     std::vector<Drag> drags = {}, drag_targets = {};  ///< of the scene's handles, or none
     std::vector<double> delays = {};                  ///< of these [s], or none
-    /// What programs have given cavities (Cavity::drive_at), NaN: nothing; shape [Model::cavities], or none.
-    std::vector<double> cavity_drives = {};
-    std::string programmed = {};  ///< Simulator::Impl::programmed_of; empty: nothing
+    std::string programmed = {};                      ///< Simulator::Impl::programmed_of; empty: nothing
 };
 
 /// A model's tets and faces, as a number: what a state belongs to.

@@ -59,7 +59,7 @@ void Playback::show(std::size_t index) {
     arms = std::move(programmed.arms);
     motors = std::move(programmed.motors);
     attachments_memory_ = std::move(programmed.attachments);
-    set_cavity_drives(frame.moment.cavity_drives);
+    cavity_gas = std::move(programmed.cavity_gas);
     clock.go_on_from(moment_of(frame.moment));
     watch->begin(frame.moment.state, clock.now());
 }

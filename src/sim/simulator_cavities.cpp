@@ -1,30 +1,12 @@
 // What gas cavities have.
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "gelatin/error.h"
 #include "model/scene/names.h"
 #include "model/scene/validate_cavities.h"
 #include "sim/simulation.h"
 
 namespace gelatin {
-
-std::vector<double> Simulator::Impl::set_cavity_drives() const {
-    if (cavity_gas.empty()) return {};
-    std::vector<double> drives(model->cavities.size(), std::nan(""));
-    for (const auto& [cavity, gas] : cavity_gas) drives[cavity] = model->cavities[cavity].drive_at(0.0, gas);
-    return drives;
-}
-
-void Simulator::Impl::set_cavity_drives(const std::vector<double>& drives) {
-    cavity_gas.clear();
-    for (std::size_t c = 0; c < drives.size(); ++c) {
-        if (std::isnan(drives[c])) continue;
-        CavityGas& gas = cavity_gas[c];
-        (model->cavities[c].gas.law == GasLaw::constant ? gas.pressure : gas.amount) = drives[c];
-    }
-}
 
 double Simulator::Impl::cavity_drive(std::size_t cavity, double time) const {
     const auto set = cavity_gas.find(cavity);

@@ -1,6 +1,9 @@
 // Continuing from other moments: of a file, or of another simulation.
+#include <fmt/core.h>
+
 #include <cmath>
 
+#include "core/log.h"
 #include "gelatin/error.h"
 #include "sim/carry_over.h"
 #include "sim/checkpoint.h"
@@ -16,7 +19,10 @@ Checkpoint read_moment(const std::filesystem::path& file, std::optional<int> fra
     if (!is_recording(file)) return read_checkpoint(file, model);
     const Recording recording(file);
     RecordingInternals::require_fits(recording, model);
-    const std::size_t index = frame ? recording.index_of(*frame) : recording.frame_count() - 1;
+    const std::size_t last = recording.frame_count() - 1, index = frame ? recording.index_of(*frame) : last;
+    if (!frame && recording.is_cut_off())
+        log_warning(fmt::format("{}: is cut off or damaged after frame {}, from which the run goes on",
+                                file.string(), recording.frame(last)));
     return RecordingInternals::frame(recording, model, index).moment;
 }
 
@@ -60,7 +66,7 @@ void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional
     d.arms = std::move(programmed.arms);
     d.motors = std::move(programmed.motors);
     d.motors.erase(d.motors.lower_bound(d.attachments.all.size()), d.motors.end());
-    d.set_cavity_drives(checkpoint.cavity_drives);
+    d.cavity_gas = std::move(programmed.cavity_gas);
     d.take_state(checkpoint.state, d.moment_of(checkpoint));
 }
 

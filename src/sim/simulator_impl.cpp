@@ -7,6 +7,7 @@
 
 #include "core/log.h"
 #include "gelatin/error.h"
+#include "model/scene/validate_cavities.h"
 #include "sim/own_handles.h"
 
 namespace gelatin {
@@ -18,13 +19,33 @@ struct MotorRow {
     double time, speed, position, force;
 };
 
+// What a program has given a cavity.
+struct GasRow {
+    std::uint64_t cavity;
+    double pressure, amount;
+};
+
+// As in a scene with another law it is not.
+bool is_allowed(const CavityGas& gas, const CavityDescription& cavity) {
+    bool is_allowed = true;
+    const ReportProblem refuse = [&](const auto&...) { is_allowed = false; };
+    check_gas(ValueChecks(refuse), {}, cavity, gas);
+    return is_allowed;
+}
+
+double value_or_nan(const std::optional<double>& value) {
+    return value.value_or(std::nan(""));
+}
+std::optional<double> given(double value) {
+    return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
 std::vector<MotorRow> rows_of(const std::map<std::size_t, JointMotor>& motors) {
     std::vector<MotorRow> rows;
     for (const auto& [attachment, motor] : motors) {
         const auto add = [&, a = attachment](double time, const auto& of) {
-            const double none = std::nan("");
             rows.push_back(
-                {a, time, of.speed.value_or(none), of.position.value_or(none), of.force.value_or(none)});
+                {a, time, value_or_nan(of.speed), value_or_nan(of.position), value_or_nan(of.force)});
         };
         add(0.0, motor);
         for (const MotorKeyframe& keyframe : motor.keyframes) add(keyframe.time, keyframe);
@@ -34,7 +55,6 @@ std::vector<MotorRow> rows_of(const std::map<std::size_t, JointMotor>& motors) {
 
 std::map<std::size_t, JointMotor> motors_of(const std::vector<MotorRow>& rows) {
     std::map<std::size_t, JointMotor> motors;
-    const auto given = [](double value) { return std::isnan(value) ? std::nullopt : std::optional(value); };
     for (const MotorRow& row : rows) {
         const auto [motor, is_new] = motors.try_emplace(row.attachment);
         const auto set = [&](auto& of) {
@@ -102,22 +122,25 @@ Checkpoint Simulator::Impl::checkpoint() const {
                     solver->read_state(),
                     of_own_handles(*model, drags.drags()),
                     of_own_handles(*model, drags.targets()),
-                    of_own_handles(*model, handle_clocks.delays()),
-                    set_cavity_drives()};
+                    of_own_handles(*model, handle_clocks.delays())};
     const std::string attached = attachments_memory();
-    if (arms.programmed().empty() && motors.empty() && attached.empty()) return made;
+    if (arms.programmed().empty() && motors.empty() && attached.empty() && cavity_gas.empty()) return made;
     Archive archive = Archive::that_writes(made.programmed);
     HandleArms(arms).archive(archive);
     std::vector<MotorRow> rows = rows_of(motors);
     archive.list(rows);
     std::vector<char> bytes(attached.begin(), attached.end());
     archive.list(bytes);
+    std::vector<GasRow> gas;
+    for (const auto& [cavity, of] : cavity_gas)
+        gas.push_back({cavity, value_or_nan(of.pressure), value_or_nan(of.amount)});
+    archive.list(gas);
     return made;
 }
 
 Simulator::Impl::Programmed Simulator::Impl::programmed_of(const Checkpoint& checkpoint,
                                                            const std::filesystem::path& file) const {
-    Programmed made{HandleArms(model), {}, {}};
+    Programmed made{HandleArms(model), {}, {}, {}};
     if (checkpoint.programmed.empty()) return made;
     const auto refuse = [&](const char* others) {
         throw InvalidInput(
@@ -125,14 +148,21 @@ Simulator::Impl::Programmed Simulator::Impl::programmed_of(const Checkpoint& che
     };
     Archive archive = Archive::that_reads(checkpoint.programmed);
     if (!made.arms.archive(archive)) refuse("animated colliders");
-    if (archive.is_complete()) return made;  // by an earlier version
     std::vector<MotorRow> rows;
     std::vector<char> attached;
+    std::vector<GasRow> gas;
     archive.list(rows);
-    if (!archive.is_complete()) archive.list(attached);
+    archive.list(attached);
+    archive.list(gas);
     if (!archive.is_complete()) refuse("attachments");
     made.motors = motors_of(rows);
     made.attachments.assign(attached.begin(), attached.end());
+    for (const GasRow& row : gas) {
+        const CavityGas of{given(row.pressure), given(row.amount)};
+        if (row.cavity >= model->cavities.size() || !is_allowed(of, model->cavities[row.cavity].gas))
+            refuse("cavities");
+        made.cavity_gas[row.cavity] = of;
+    }
     return made;
 }
 

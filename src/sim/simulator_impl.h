@@ -108,14 +108,12 @@ struct Simulator::Impl {
     std::vector<CavityStatus> cavity_states() const;
     /// As Cavity::drive_at.
     double cavity_drive(std::size_t cavity, double time) const;
-    /// As Checkpoint::cavity_drives.
-    std::vector<double> set_cavity_drives() const;
-    void set_cavity_drives(const std::vector<double>& drives);
-    /// Arms and motors that programs have set, and their attachments, from Checkpoint::programmed.
+    /// What programs have set and attached, from Checkpoint::programmed.
     struct Programmed {
         HandleArms arms;
         std::map<std::size_t, JointMotor> motors;
         std::string attachments;  // MadeAttachments::memory
+        std::map<std::size_t, CavityGas> cavity_gas;
     };
     /// @throws InvalidInput naming the file, if it does not fit
     Programmed programmed_of(const Checkpoint& checkpoint, const std::filesystem::path& file) const;

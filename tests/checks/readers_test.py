@@ -193,7 +193,7 @@ class Readers(unittest.TestCase):
         assert samples == LAST + 1
         cls.points = np.frombuffer(cache, "<f4", offset=32).reshape(samples, points, 3)
         end = (cls.folder / "end").read_bytes()
-        cls.nodes = np.frombuffer(end, "<f4", 4 * struct.unpack_from("<Q", end, 24)[0], 88).reshape(-1, 4)[:, :3]
+        cls.nodes = np.frombuffer(end, "<f4", 4 * struct.unpack_from("<Q", end, 24)[0], 80).reshape(-1, 4)[:, :3]
 
     @classmethod
     def gelatin(cls, *arguments):

@@ -140,6 +140,32 @@ TEST_F(CavitiesTest, CheckpointsHaveWhatProgramsSet) {
     EXPECT_EQ(again.read_frame().velocities, whole.read_frame().velocities);
 }
 
+// A pressure is no amount.
+TEST_F(CavitiesTest, WhatProgramsSetIsRefusedByOtherLaws) {
+    const TemporaryFolder folder;
+    const auto checkpoint = folder.path() / "a.ckpt", recorded = folder.path() / "a.gel";
+    Simulator run(balls(), on(Backend::cpu));
+    run.save_checkpoint(checkpoint);
+    Scene other = balls();
+    other.objects[1].cavities = {{.name = "air"}};
+    Simulator sealed(other, on(Backend::cpu));
+    sealed.load_checkpoint(checkpoint);  // nothing is set: where nodes are is what counts
+    run.set_cavity(1, {.pressure = 2e4});
+    advance(run, 1);
+    run.save_checkpoint(checkpoint);
+    RecordingWriter writer(recorded, run);
+    writer.write(run);
+    writer.finish();
+    other.objects[1].cavities.clear();
+    Simulator none(other, on(Backend::cpu));
+    for (const auto& file : {checkpoint, recorded})
+        for (Simulator* each : {&sealed, &none}) {
+            EXPECT_EQ(error_of([&] { each->load_checkpoint(file); }),
+                      file.string() + ": was made from a scene with other cavities");
+            EXPECT_EQ(each->frame(), 0);
+        }
+}
+
 TEST_F(CavitiesTest, RecordingsHaveWhatProgramsSet) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "run.gel";

@@ -254,7 +254,7 @@ TEST_F(RecordedMeshesTest, DamageIsFound) {
     expect_refused(damaged, "is damaged: its checksum does not match");
     damaged = whole;
     damaged[8] = 1;  // the version
-    expect_refused(damaged, "was written by another version of Gelatin: its format is 1, not 3");
+    expect_refused(damaged, "was written by another version of Gelatin: its format is 1, not 4");
     expect_refused(whole.substr(0, whole.find("\x28\xB5\x2F\xFD") + 100),
                    "is cut off before its first frame");
 }

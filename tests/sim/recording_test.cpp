@@ -14,6 +14,7 @@
 
 #include "core/file.h"
 #include "gelatin/error.h"
+#include "gelatin/log.h"
 #include "sim/recording/earlier_neighbours.h"
 #include "sim/recording/recorded_frame.h"
 #include "sim/recording/residuals.h"
@@ -226,6 +227,54 @@ TEST_F(RecordingTest, WhatIsCutOffOpensUpToTheLastWholeFrame) {
         player.show_recorded(last);
         EXPECT_TRUE(player.read_frame() == frames[last]) << size;
     }
+}
+
+TEST_F(RecordingTest, WhoGoesOnFromWhatIsCutOffReadsWhere) {
+    record(balls_that_meet(), 5);
+    const std::string whole = read_file(file());
+    Simulator later(balls_that_meet(), on_cpu());
+    std::vector<std::string> lines;
+    set_log_callback([&](Severity severity, std::string_view line) {
+        if (severity == Severity::warning) lines.emplace_back(line);
+    });
+    later.load_checkpoint(file());
+    EXPECT_THAT(lines, testing::IsEmpty());
+    write_file(file(), whole.substr(0, whole.size() - 1));
+    later.load_checkpoint(file());
+    EXPECT_EQ(later.frame(), 4);
+    later.load_checkpoint(file(), 3);  // which is there
+    set_log_callback({});
+    EXPECT_THAT(lines,
+                testing::ElementsAre(file().string() +
+                                     ": is cut off or damaged after frame 4, from which the run goes on"));
+}
+
+// A player, an export and a frame's number mean one run.
+TEST_F(RecordingTest, FramesAscend) {
+    Simulator simulator(balls_that_meet(), on_cpu());
+    RecordingWriter writer(file(), simulator);
+    for (int frame = 0; frame < 3; ++frame) {
+        writer.write(simulator);
+        simulator.advance_frame();
+    }
+    simulator.reset();
+    simulator.advance_frame();
+    try {
+        writer.write(simulator);
+        ADD_FAILURE() << "it was not refused";
+    } catch (const InvalidInput& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  file().string() +
+                      ": frame = 1: must be after frame 2, which is recorded: after a reset, or an "
+                      "earlier checkpoint, another recording begins");
+    }
+    simulator.advance_frame();
+    simulator.advance_frame();
+    writer.write(simulator);
+    writer.finish();
+    const auto recording = open();
+    ASSERT_EQ(recording->frame_count(), 4u);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(recording->frame(k), static_cast<int>(k));
 }
 
 TEST_F(RecordingTest, DamageIsFoundAndNamed) {

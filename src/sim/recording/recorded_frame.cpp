@@ -159,7 +159,6 @@ std::string encoded_frame(const RecordedFrame& frame, const EarlierNeighbours& n
     small.add(moment.drags);
     small.add(moment.drag_targets);
     small.add(moment.delays);
-    small.add(moment.cavity_drives);
     small.add(is_as_before ? std::vector<char>()
                            : std::vector<char>(moment.programmed.begin(), moment.programmed.end()));
     small.add(frame.contacts.between);
@@ -183,7 +182,7 @@ RecordedFrame decoded_frame(std::string_view bytes, const Model& model, const Ea
     constexpr std::size_t kMostProgrammed = std::size_t(1) << 30;  // of what programs have made and set
     const std::size_t most = 4096 + kMostProgrammed + kArrays * nodes * sizeof(glm::vec4) +
                              handles * (2 * sizeof(Drag) + 7 * sizeof(double)) +
-                             model.cavities.size() * sizeof(double) + handles * 5 * sizeof(double) +
+                             handles * 5 * sizeof(double) +
                              model.handle_nodes.size() * 2 * sizeof(glm::dvec3) +
                              objects * (objects + model.colliders.size()) * sizeof(ContactForces::Between);
     const std::string content = decompressed(bytes, most);
@@ -198,12 +197,11 @@ RecordedFrame decoded_frame(std::string_view bytes, const Model& model, const Ea
     std::vector<char> programmed;
     const bool is_whole = reader.take(fixed) && reader.take(moment.drags) &&
                           reader.take(moment.drag_targets) && reader.take(moment.delays) &&
-                          reader.take(moment.cavity_drives) && reader.take(programmed) &&
-                          reader.take(frame.contacts.between) && reader.take(frame.holds.by_handle) &&
-                          reader.take(frame.holds.torques) && reader.at_end() && fixed.size() == 1;
+                          reader.take(programmed) && reader.take(frame.contacts.between) &&
+                          reader.take(frame.holds.by_handle) && reader.take(frame.holds.torques) &&
+                          reader.at_end() && fixed.size() == 1;
     if (!is_whole || moment.drags.size() != handles || moment.drag_targets.size() != handles ||
-        moment.delays.size() != handles || (fixed[0].is_as_before != 0 && previous == nullptr) ||
-        (!moment.cavity_drives.empty() && moment.cavity_drives.size() != model.cavities.size()))
+        moment.delays.size() != handles || (fixed[0].is_as_before != 0 && previous == nullptr))
         refuse();
     moment.frame = fixed[0].frame;
     moment.programmed = fixed[0].is_as_before != 0 ? previous->moment.programmed

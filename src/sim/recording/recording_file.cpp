@@ -16,7 +16,7 @@ namespace gelatin {
 namespace {
 
 constexpr char kMagic[8] = {'G', 'E', 'L', 'A', 'T', 'R', 'E', 'C'};
-constexpr std::uint32_t kVersion = 3, kFrameMark = 0x4D415246u;  // "FRAM"
+constexpr std::uint32_t kVersion = 4, kFrameMark = 0x4D415246u;  // "FRAM"
 
 // The file begins with this, followed by JSON text and the meshes' bytes.
 struct FileHeader {

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -7,6 +9,7 @@
 #include <utility>
 
 #include "core/log.h"
+#include "gelatin/error.h"
 #include "gelatin/recording.h"
 #include "sim/recording/recorded_frame.h"
 #include "sim/recording/recording_file.h"
@@ -29,12 +32,20 @@ RecordingHead head_of(const Simulator& simulator) {
 }  // namespace
 
 struct RecordingWriter::Impl {
-    Impl(const std::filesystem::path& file, const RecordingHead& head, const Model& model)
-        : output(file, head),
+    Impl(const std::filesystem::path& of, const RecordingHead& head, const Model& model)
+        : file(of),
+          output(file, head),
           neighbours(earlier_neighbours(model)),
           writer([this](const std::stop_token& stop) { run(stop); }) {}
 
     void add(RecordedFrame frame) {
+        const int number = frame.moment.frame;
+        if (number <= newest)
+            throw InvalidInput({file.string(), 0, "frame", std::to_string(number),
+                                fmt::format("must be after frame {}, which is recorded: after a reset, or an "
+                                            "earlier checkpoint, another recording begins",
+                                            newest)});
+        newest = number;
         std::unique_lock lock(mutex);
         changed.wait(lock, [&] { return waiting.size() < kMostWaiting || problem; });
         if (problem) std::rethrow_exception(problem);
@@ -83,6 +94,8 @@ struct RecordingWriter::Impl {
         last = std::move(frame);
     }
 
+    const std::filesystem::path file;
+    int newest = -1;  // of the frames that were added
     RecordingOutput output;
     EarlierNeighbours neighbours;
     std::size_t count = 0;
