@@ -265,7 +265,8 @@ public:
     void move_pull(std::size_t pull, const glm::dvec3& target);
 
     /// Attaches an object from now on, where everything is now: regions, points and lines are in world
-    /// coordinates at present. Scene::attachments has it, too. Part of checkpoints; reset() removes it.
+    /// coordinates at present. Scene::attachments has it, too. Part of checkpoints; reset() removes it. It
+    /// may have the name of a broken one that attach() has made: that one is then called by its place.
     /// @return its place in Scene::attachments @throws InvalidInput as validate(), and if there is no node
     std::size_t attach(const AttachmentDescription& attachment);
     /// Breaks an attachment for good, until reset(). @throws InvalidInput if there is none

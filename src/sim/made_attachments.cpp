@@ -38,10 +38,19 @@ MadeAttachments::MadeAttachments(const Scene& scene, const Model& model, std::sp
 void MadeAttachments::add(const AttachmentDescription& description, std::span<const glm::vec4> positions,
                           Scene& scene, const Model& model) {
     Scene next = scene;
+    const std::optional<std::size_t> broken = find_broken(description.name, scene);
+    if (broken) next.attachments[*broken].name.clear();
     next.attachments.push_back(description);
     validate(next);
     all.push_back(make_attachment(description, all.size(), next, model, positions));
+    if (broken) all[*broken].name = name_of_attachment(next.attachments[*broken], *broken);
     scene.attachments = std::move(next.attachments);
+}
+
+std::optional<std::size_t> MadeAttachments::find_broken(const std::string& name, const Scene& scene) const {
+    for (std::size_t a = of_scene; a < all.size(); ++a)
+        if (all[a].is_broken && scene.attachments[a].name == name) return a;
+    return {};
 }
 
 std::string MadeAttachments::memory(const Scene& scene) const {
@@ -92,8 +101,10 @@ void MadeAttachments::restore(const std::string& bytes, Scene& scene, const Mode
     MadeAttachments made = *this;
     Scene next = scene;
     made.reset(next);
-    for (std::size_t k = 0; k < added.size(); ++k)
+    for (std::size_t k = 0; k < added.size(); ++k) {
+        added[k].line = 0;  // of no file
         made.add(added[k], std::span(memory.positions).subspan(memory.sets[k] * nodes, nodes), next, model);
+    }
     for (std::size_t a = 0; a < made.all.size(); ++a) made.all[a].is_broken = memory.is_broken[a] != 0;
     *this = std::move(made);
     scene.attachments = std::move(next.attachments);

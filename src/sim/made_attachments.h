@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ struct MadeAttachments {
     MadeAttachments() = default;
     /// Those of a scene. @throws InvalidInput as make_attachments
     MadeAttachments(const Scene& scene, const Model& model, std::span<const glm::vec4> positions);
-    /// Another one. @param scene output: has it, too @throws InvalidInput as validate() and make_attachment
+    /// Another one, which takes its name from a broken one that a program has made.
+    /// @param scene output: has it, too @throws InvalidInput as validate() and make_attachment
     void add(const AttachmentDescription& description, std::span<const glm::vec4> positions, Scene& scene,
              const Model& model);
     /// Which are broken, and what programs have made, where nodes were then; empty: nothing.
@@ -37,6 +39,10 @@ struct MadeAttachments {
     /// @param start of this simulation @param scene output: its attachments
     void go_on_from(const MadeAttachments& from, const Scene& from_scene, const Model& from_model,
                     const State& start, Scene& scene, const Model& model);
+
+private:
+    // That a program has made.
+    std::optional<std::size_t> find_broken(const std::string& name, const Scene& scene) const;
 };
 
 }  // namespace gelatin

@@ -123,6 +123,39 @@ TEST_F(MadeAttachments, FillRecordings) {
     EXPECT_FALSE(other.is_broken(12));
 }
 
+// As a gripper that lets go and takes hold again.
+TEST_F(MadeAttachments, TakeTheNameOfABrokenOne) {
+    MeasuredRun run(scene_), other(scene_), third(scene_);
+    const AttachmentDescription grip{.name = "grip", .object = "b", .to = "a"};
+    run.simulator().attach(grip);
+    run.advance(0.05);
+    EXPECT_THROW(run.simulator().attach(grip), InvalidInput) << "it holds";
+    run.simulator().detach(0);
+    EXPECT_THROW(run.simulator().attach({.name = "grip", .object = "b"}), InvalidInput);
+    EXPECT_EQ(run.simulator().attachments()[0].name, "grip") << "nothing has changed";
+    EXPECT_EQ(run.simulator().attach(grip), 1u);
+    run.advance(0.05);
+    RecordingWriter writer(folder_ / "grip.gel", run.simulator());
+    writer.write(run.simulator());
+    writer.finish();
+    run.simulator().save_checkpoint(folder_ / "grip.gelatin");
+    other.simulator().load_checkpoint(folder_ / "grip.gelatin");
+    third.simulator().go_on_from(run.simulator());
+    Simulator player(std::make_shared<const Recording>(folder_ / "grip.gel"));
+    EXPECT_EQ(SimulatorInternals::attachments(player)[1].name, "grip");
+    for (MeasuredRun* each : {&run, &other, &third}) {
+        const auto all = each->simulator().attachments();
+        ASSERT_EQ(all.size(), 2u);
+        EXPECT_EQ(all[0].name, "attachment 1");
+        EXPECT_EQ(all[1].name, "grip");
+        EXPECT_TRUE(all[0].is_broken);
+        EXPECT_FALSE(all[1].is_broken);
+        each->advance(0.2);
+    }
+    EXPECT_EQ(other.center(1), run.center(1));
+    EXPECT_GT(run.center(1).y, -0.3) << "it hangs";
+}
+
 // Of the run before.
 TEST_F(MadeAttachments, ExertNothingWhereStepsBeginAnew) {
     MeasuredRun run(hanging_row());
