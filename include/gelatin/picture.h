@@ -38,12 +38,13 @@ class GELATIN_API PicturePainter {
 public:
     /// Compiles shaders, and sets the camera by the present state, or by all frames of a recording that is
     /// played. @throws NoOpenGl without a context;
-    /// InvalidInput for a size that is not allowed
+    /// InvalidInput for a size or a camera that is not allowed
     explicit PicturePainter(Simulator& simulator, const PictureOptions& options = {});
     PicturePainter(PicturePainter&&) noexcept;
     PicturePainter& operator=(PicturePainter&&) noexcept;
     ~PicturePainter();
 
+    /// @throws InvalidInput as validate() for a scene's
     void set_camera(const CameraDescription& camera);
     void set_overlays(const Overlays& overlays);
 

@@ -75,9 +75,23 @@ def vectors(name: str, value: Any, *axes: str) -> npt.NDArray[np.float64]:
 
 
 def text(name: str, value: Any) -> str:
+    """Raises TypeError for what is no text, InvalidInput for one that UTF-8 does not have."""
     if not isinstance(value, str):
         raise wrong_type(name, value, "a str")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise InvalidInput(f"{name} = {value!a}: must be Unicode, without surrogates") from None
     return value
+
+
+def path(name: str, value: Any) -> str:
+    """Raises TypeError for what is no path, InvalidInput as `text`."""
+    try:
+        found = os.fsdecode(value)
+    except TypeError:
+        raise wrong_type(name, value, "a path") from None
+    return text(name, found)
 
 
 def texts(name: str, value: Union[str, Iterable[str]]) -> list[str]:
@@ -85,7 +99,7 @@ def texts(name: str, value: Union[str, Iterable[str]]) -> list[str]:
     listed = [value] if isinstance(value, str) else list(value) if isinstance(value, Iterable) else [value]
     if not all(isinstance(element, str) for element in listed):
         raise wrong_type(name, value, "a list of str")
-    return listed
+    return [text(name, element) for element in listed]
 
 
 def check_function(name: str, value: object) -> None:
@@ -93,7 +107,9 @@ def check_function(name: str, value: object) -> None:
         raise wrong_type(name, value, "a function")
 
 
-def check_ending(file: Union[str, os.PathLike[str]], ending: str) -> None:
-    """Raises InvalidInput for a file of another name."""
-    if os.path.splitext(file)[1].lower() != ending:
-        raise InvalidInput(f"file = {os.fspath(file)}: must end in {ending}")
+def path_ending(file: Any, ending: str) -> str:
+    """A path. Raises InvalidInput for one of another name, and as `path`."""
+    found = path("file", file)
+    if os.path.splitext(found)[1].lower() != ending:
+        raise InvalidInput(f"file = {found}: must end in {ending}")
+    return found

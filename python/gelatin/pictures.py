@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from .arguments import check_ending, whole_number
+from . import _gelatin
+from .arguments import path_ending, whole_number
 from .errors import InvalidInput, SystemError
 from .progress import frames_with_bar
 
@@ -26,11 +27,14 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
     """8-bit sRGB, rows from the top: an array of shape (height, width, 3), uint8. Notebooks show it."""
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Writes a PNG file. Raises InvalidInput for a name that does not end in .png."""
-        check_ending(file, ".png")
+        """Writes a PNG file, completely or not at all.
+
+        Raises InvalidInput for a name that does not end in .png; SystemError if it cannot be written.
+        """
+        target = path_ending(file, ".png")
         if not self._is_whole():
             raise InvalidInput(f"a picture must have the shape (height, width, 3), not {self.shape}")
-        Path(file).write_bytes(png_bytes(self))
+        _gelatin.write_file(target, png_bytes(self))
 
     def _repr_png_(self) -> bytes | None:
         return png_bytes(self) if self._is_whole() else None
@@ -73,9 +77,11 @@ class Film:
         return f"<gelatin.Film: {self.file}>"
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Copies it. Raises InvalidInput for a name that does not end in .mp4."""
-        check_ending(file, ".mp4")
-        Path(file).write_bytes(self.file.read_bytes())
+        """Copies it, completely or not at all.
+
+        Raises InvalidInput for a name that does not end in .mp4; SystemError if it cannot be written.
+        """
+        _gelatin.write_file(path_ending(file, ".mp4"), self.file.read_bytes())
 
     def _repr_html_(self) -> str:
         data = base64.b64encode(self.file.read_bytes()).decode()
@@ -103,7 +109,7 @@ def film(
     """
     frames, width, height = whole_number("frames", frames), whole_number("width", width), whole_number("height", height)
     if file is not None:
-        check_ending(file, ".mp4")
+        file = path_ending(file, ".mp4")
     if width % 2 or height % 2 or width < 2 or height < 2:
         raise InvalidInput(f"a film's width and height must be even and greater than 0, not {width} and {height}")
     temporary = tempfile.TemporaryDirectory(prefix="gelatin_") if file is None else None

@@ -7,7 +7,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 from . import _gelatin
-from .arguments import whole_number
+from .arguments import path, whole_number
 
 if TYPE_CHECKING:
     from .simulator import Simulator
@@ -19,8 +19,8 @@ class Recorder:
     def __init__(self, simulator: Simulator, file: str | os.PathLike[str], every: int) -> None:
         self._every = whole_number("every", every, least=1)
         self._simulator = simulator
-        self._writer = _gelatin.record(os.fspath(file), simulator._core)
-        self._written: int | None = None
+        self._writer = _gelatin.record(path("file", file), simulator._core)
+        self._written = -1
         self._write()
 
     def __enter__(self) -> Recorder:
@@ -31,7 +31,7 @@ class Recorder:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._simulator.remove_callback(self._write_if_due)
-        if kind is None:
+        if kind is None and self._simulator.frame > self._written:
             self._write()  # the last one, from which a run can continue
         self._writer.finish()
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, Union, cast
 
 from . import _gelatin
-from .arguments import texts, wrong_type
+from .arguments import path, texts, wrong_type
 from .errors import InvalidInput
 from .objects import Attached, Attachment, Camera, Collider, Object, Rigid
 from .shapes import File, Plane, Shape, Vector
@@ -257,7 +257,7 @@ def load(
     """
     if isinstance(overrides, Mapping):
         overrides = [f"{key}={_toml(key, value)}" for key, value in overrides.items()]
-    return cast(Scene, _gelatin.load(os.fspath(file), texts("overrides", overrides)))
+    return cast(Scene, _gelatin.load(path("file", file), texts("overrides", overrides)))
 
 
 def _toml(key: str, value: Any) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _gelatin
-from .arguments import check_function, text, texts, vectors, whole_number
+from .arguments import check_function, path, text, texts, vectors, whole_number
 from .bodies import Body
 from .errors import InvalidInput
 from .hands import Hand
@@ -293,6 +293,8 @@ class Simulator:
     ) -> int:
         """Attaches an object from now on, as `Scene.add_attachment` does at the start. `reset` removes it. Checkpoints have it.
 
+        It may have the name of a broken one that `attach` has made: that one is then called by its place.
+
         object: its name, or itself; or a whole `gelatin.Attachment`.
         to, where: regions, points and lines are in the world at present.
 
@@ -305,8 +307,8 @@ class Simulator:
         else:
             raise InvalidInput("object: a gelatin.Attachment says all of it: no other argument is allowed")
         place = self._core.attach(attachment)
-        self.scene = dataclasses.replace(self.scene, attachments=[*self.scene.attachments, attachment])
         self._attached += 1
+        self._read_attachments()
         return place
 
     def detach(self, attachment: Union[int, str]) -> None:
@@ -420,7 +422,7 @@ class Simulator:
         OpenGL is needed for this alone. The first picture takes longer: it compiles shaders. Pictures of a simulator belong
         to one thread.
 
-        Raises NoOpenGl if there is none; InvalidInput for a size or an overlay that is not allowed.
+        Raises NoOpenGl if there is none; InvalidInput for a size, a camera or an overlay that is not allowed.
         """
         size = whole_number("width", width), whole_number("height", height)
         return self._core.render(*size, text("quality", quality), camera, texts("overlays", overlays)).view(Picture)
@@ -432,7 +434,7 @@ class Simulator:
 
         The file is written completely or not at all. Raises SystemError.
         """
-        self._core.save_checkpoint(os.fspath(file))
+        self._core.save_checkpoint(path("file", file))
 
     def load_checkpoint(self, file: str | os.PathLike[str], frame: int | None = None) -> None:
         """Continues from a saved state, bit for bit, or from a frame of a recording.
@@ -441,12 +443,9 @@ class Simulator:
 
         Raises InvalidInput for a file of another scene, or a damaged one, and for a frame that is not recorded.
         """
-        self._core.load_checkpoint(os.fspath(file), None if frame is None else whole_number("frame", frame))
-        own = len(self.scene.attachments) - self._attached
-        has_more = self._attached > 0 or len(self.attachments()) > own
-        made = cast(Scene, self._core.scene()).attachments[own:] if has_more else []
-        self.scene = dataclasses.replace(self.scene, attachments=[*self.scene.attachments[:own], *made])
-        self._attached = len(made)
+        self._core.load_checkpoint(path("file", file), None if frame is None else whole_number("frame", frame))
+        self._attached += len(self.attachments()) - len(self.scene.attachments)
+        self._read_attachments()
 
     def record(self, file: str | os.PathLike[str], every: int = 1) -> Recorder:
         """Records the present frame, and in a `with` block every frame, or every so many, and the last one.
@@ -455,9 +454,17 @@ class Simulator:
         ...     sim.advance(100)
 
         `gelatin.play`, and `gelatin render`, `export` and `view` take the file. Frames are kept to the last bit; what is
-        written before a crash can be read. Raises SystemError if it cannot be written.
+        written before a crash can be read. Frames ascend: after `reset`, or an earlier checkpoint, another recording begins.
+
+        Raises SystemError if it cannot be written; in the block, InvalidInput for a frame that is not after those recorded.
         """
         return Recorder(self, file, every)
+
+    def _read_attachments(self) -> None:
+        """Those of programs, by the names that they have now."""
+        present = cast("list[Attachment]", self._core.scene_attachments())
+        own = len(present) - self._attached
+        self.scene = dataclasses.replace(self.scene, attachments=[*self.scene.attachments[:own], *present[own:]])
 
     def _forget_changes(self) -> None:
         if self._hands:
@@ -482,7 +489,7 @@ class Player(Simulator):
     """
 
     def __init__(self, file: str | os.PathLike[str]) -> None:
-        core = _gelatin.play(os.fspath(file))
+        core = _gelatin.play(path("file", file))
         self._begin(core, cast(Scene, core.scene()))
         #: the numbers of the recorded frames
         self.frames: list[int] = core.recorded_frames()

@@ -65,7 +65,7 @@ private:
 
 void bind_batch(nb::module_& module) {
     nb::class_<PythonBatch>(module, "Batch")
-        .def(nb::init<nb::handle, std::int64_t>(), nb::arg("scene"), nb::arg("worlds"))
+        .def(nb::init<nb::handle, std::int64_t>(), nb::arg("scene").none(), nb::arg("worlds"))
         .def("__len__", &PythonBatch::size)
         .def("step", &PythonBatch::step, nb::arg("count"))
         .def("reset", &PythonBatch::reset, nb::arg("mask"))

@@ -1,13 +1,11 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
 #include <glm/vec3.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -109,6 +107,10 @@ void bind_changes(nb::class_<PythonSimulator>& simulator) {
                 return place;
             },
             nb::arg("attachment"))
+        .def("scene_attachments",
+             [](PythonSimulator& self) {
+                 return self.use([](const Simulator& s) { return python_attachments(s.scene()); });
+             })
         .def(
             "detach",
             [](PythonSimulator& self, std::size_t attachment) {
@@ -132,9 +134,9 @@ void bind_changes(nb::class_<PythonSimulator>& simulator) {
             nb::arg("collider"), nb::arg("vertices"))
         .def(
             "set_cavity",
-            [](PythonSimulator& self, std::size_t cavity, std::optional<double> pressure,
-               std::optional<double> amount) {
-                self.use([&](Simulator& s) { s.set_cavity(cavity, {pressure, amount}); });
+            [](PythonSimulator& self, std::size_t cavity, nb::handle pressure, nb::handle amount) {
+                const CavityGas gas = gas_of(pressure, amount);
+                self.use([&](Simulator& s) { s.set_cavity(cavity, gas); });
             },
             nb::arg("cavity"), nb::arg("pressure").none(), nb::arg("amount").none())
         .def(

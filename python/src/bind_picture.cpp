@@ -6,6 +6,7 @@
 #include "bindings.h"
 #include "gelatin/error.h"
 #include "gelatin/picture.h"
+#include "model/scene/value_text.h"
 #include "overlay_option.h"
 #include "python_simulator.h"
 #include "scene_conversion.h"
@@ -19,7 +20,7 @@ PictureQuality quality_of(const std::string& word) {
     if (word == "auto") return PictureQuality::automatic;
     if (word == "high") return PictureQuality::high;
     if (word == "fast") return PictureQuality::fast;
-    throw InvalidInput({{}, 0, "quality", "\"" + word + "\"", "must be one of \"auto\", \"high\", \"fast\""});
+    throw InvalidInput({{}, 0, "quality", text_of(word), "must be one of \"auto\", \"high\", \"fast\""});
 }
 
 Pixels pixels_of(Picture picture) {

@@ -97,7 +97,7 @@ auto getter(Result (Simulator::*member)() const) {
 void bind_simulator(nb::module_& module) {
     nb::class_<PythonSimulator> simulator(module, "Simulator");
     simulator
-        .def(nb::init<nb::handle, const std::string&, std::optional<int>, bool>(), nb::arg("scene"),
+        .def(nb::init<nb::handle, const std::string&, std::optional<int>, bool>(), nb::arg("scene").none(),
              nb::arg("backend"), nb::arg("gl_device") = nb::none(), nb::arg("gl_debug") = false)
         .def("step", &PythonSimulator::step, nb::arg("count"))
         .def("advance", &PythonSimulator::advance, nb::arg("frames"))

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gelatin/error.h"
+#include "model/scene/value_text.h"
 #include "names.h"
 #include "scene_fields.h"
 
@@ -146,7 +147,7 @@ void read_word(nb::handle source, const std::string& where, Enum& value) {
         }
         allowed += (allowed.empty() ? "\"" : ", \"") + std::string(name) + "\"";
     }
-    throw InvalidInput({{}, 0, where, "\"" + word + "\"", "must be one of " + allowed});
+    throw InvalidInput({{}, 0, where, text_of(word), "must be one of " + allowed});
 }
 
 template <class T>

@@ -3,6 +3,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
+#include "core/file.h"
 #include "errors.h"
 #include "gelatin/version.h"
 #include "messages.h"
@@ -19,6 +20,12 @@ NB_MODULE(_gelatin, module) {
     bind_batch(module);
     module.def("version", &version);
     module.def("commit", &commit);
+    module.def(
+        "write_file",
+        [](const std::string& file, const nb::bytes& content) {
+            write_file(file, {content.c_str(), content.size()});
+        },
+        nb::arg("file"), nb::arg("content"));
     module.def(
         "load",
         [](const std::string& file, const std::vector<std::string>& overrides) {

@@ -6,6 +6,7 @@
 
 #include "gelatin/error.h"
 #include "gelatin/recording.h"
+#include "model/scene/value_text.h"
 #include "scene_conversion.h"
 #include "sim/simulator_internals.h"
 
@@ -24,7 +25,7 @@ SimulatorOptions options_of(const std::string& backend, std::optional<int> gl_de
     options.gl_debug = gl_debug;
     if (backend == "auto") return options;
     if (backend != "gl" && backend != "cpu")
-        throw InvalidInput({{}, 0, "backend", "\"" + backend + "\"", "must be \"auto\", \"gl\" or \"cpu\""});
+        throw InvalidInput({{}, 0, "backend", text_of(backend), "must be \"auto\", \"gl\" or \"cpu\""});
     options.backend = backend == "gl" ? Backend::gl : Backend::cpu;
     return options;
 }

@@ -48,12 +48,23 @@ JointMotor motor_of(nb::handle source) {
     return read_as<JointMotor>(source, "motor");
 }
 
+CavityGas gas_of(nb::handle pressure, nb::handle amount) {
+    CavityGas gas;
+    read(pressure, "pressure", gas.pressure);
+    read(amount, "amount", gas.amount);
+    return gas;
+}
+
 Region region_of(nb::handle source) {
     return read_as<Region>(source, "region");
 }
 
 nb::object python_scene(const Scene& scene) {
     return to_python(scene);
+}
+
+nb::object python_attachments(const Scene& scene) {
+    return to_python(scene.attachments);
 }
 
 nb::dict scene_defaults() {

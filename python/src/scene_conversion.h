@@ -15,10 +15,15 @@ Material material_of(nanobind::handle source);
 CameraDescription camera_of(nanobind::handle source);
 AttachmentDescription attachment_of(nanobind::handle source);
 JointMotor motor_of(nanobind::handle source);
+/// @param pressure, amount numbers, or None
+CavityGas gas_of(nanobind::handle pressure, nanobind::handle amount);
 Region region_of(nanobind::handle source);
 
 /// An instance of gelatin.Scene.
 nanobind::object python_scene(const Scene& scene);
+
+/// A list of gelatin.Attachment.
+nanobind::object python_attachments(const Scene& scene);
 
 /// By class of the package, what a default-constructed struct of C++ has in its fields.
 nanobind::dict scene_defaults();

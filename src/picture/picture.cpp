@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "gl/host_state.h"
+#include "model/scene/validation.h"
 #include "picture/scene_painter.h"
 #include "render/frame_grabber.h"
 #include "render/image.h"
@@ -45,6 +46,7 @@ struct PicturePainter::Impl {
 };
 
 PicturePainter::PicturePainter(Simulator& simulator, const PictureOptions& options) {
+    if (options.camera) check_camera(*options.camera);
     const auto host = SimulatorInternals::keep_host_state(simulator);
     impl_ = std::make_unique<Impl>(simulator, options);
 }
@@ -54,6 +56,7 @@ PicturePainter& PicturePainter::operator=(PicturePainter&&) noexcept = default;
 PicturePainter::~PicturePainter() = default;
 
 void PicturePainter::set_camera(const CameraDescription& camera) {
+    check_camera(camera);
     impl_->painter.set_camera(camera);
 }
 

@@ -76,6 +76,31 @@ def test_programs_attach():
     assert sim["lower"].center[1] < 0
 
 
+def test_a_name_can_be_used_again(tmp_path):
+    sim = simulate(two_boxes(attach=False))
+    for _ in range(3):
+        sim.attach(*LOWER, name="grip")
+        with pytest.raises(gelatin.InvalidInput, match='name = "grip": is taken by another attachment'):
+            sim.attach(*LOWER, name="grip")
+        sim.advance(2)
+        sim.detach("grip")
+    assert sim.attach(*LOWER, name="grip") == 3
+    for names in [[each["name"] for each in sim.attachments()], [each.name for each in sim.scene.attachments]]:
+        assert names[3] == "grip" and names.count("grip") == 1
+    assert [each["is_broken"] for each in sim.attachments()] == [True, True, True, False]
+    sim.save_checkpoint(tmp_path / "a.ckpt")
+    other = simulate(two_boxes(attach=False))
+    other.load_checkpoint(tmp_path / "a.ckpt")
+    assert other.attachments() == sim.attachments() and other.scene.attachments == sim.scene.attachments
+    sim.reset()
+    assert sim.attachments() == sim.scene.attachments == []
+    # Those of the scene come back with a reset, and keep their names.
+    sim = simulate(two_boxes(name="glue"))
+    sim.detach("glue")
+    with pytest.raises(gelatin.InvalidInput, match="is taken"):
+        sim.attach(*LOWER, name="glue")
+
+
 def test_what_falls_is_caught_where_it_is():
     sim = simulate(two_boxes(attach=False))
     sim.advance(20)

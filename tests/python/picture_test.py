@@ -48,6 +48,15 @@ def test_a_picture_shows_the_body_where_it_is(needs_gl, sim, tmp_path):
     with pytest.raises(gelatin.InvalidInput, match="film.avi: must end in .mp4"):
         gelatin.Film(tmp_path / "film.mp4", 64, 36, None).save(tmp_path / "film.avi")
     assert not (tmp_path / "picture.jpg").exists()
+    film = gelatin.Film(tmp_path / "picture.png", 64, 36, None)
+    for save, name in (later.save, "a.png"), (film.save, "a.mp4"):
+        with pytest.raises(gelatin.SystemError, match="missing/.*: cannot be written: No such file or directory"):
+            save(tmp_path / "missing" / name)
+        (tmp_path / name).mkdir()
+        with pytest.raises(gelatin.SystemError, match="cannot be written"):
+            save(tmp_path / name)
+        assert list((tmp_path / name).iterdir()) == []
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["a.mp4", "a.png", "picture.png"]
     assert later._repr_png_() is not None and later[0]._repr_png_() is None
 
 
@@ -66,6 +75,24 @@ def test_cameras_overlays_and_sizes(needs_gl, sim):
         sim.render(60, 40, overlays=["stres"])
     with pytest.raises(gelatin.InvalidInput):
         sim.render(0, 40)
+
+
+def test_cameras_are_checked(needs_gl, sim):
+    before = sim.render(60, 40, camera=gelatin.Camera((0, 9, 0), (0, 2, 0)))  # straight down
+    for camera, error, problem in (
+        (gelatin.Camera((0, 2, 0), (0, 2, 0)), gelatin.InvalidInput, "camera.eye = [0, 2, 0]: must not be the target"),
+        (gelatin.Camera((0, 2 + 1e-9, 0), (0, 2, 0)), gelatin.InvalidInput, "camera.eye = [0, 2.000000001, 0]: must not be the target"),
+        (gelatin.Camera((0, np.nan, 0), (0, 2, 0)), gelatin.InvalidInput, "camera.eye[1] = nan: must be finite"),
+        (gelatin.Camera((0, 2, 9), (0, 2, np.inf)), gelatin.InvalidInput, "camera.target[2] = inf: must be finite"),
+        (gelatin.Camera((0, 2, 9), (0, 2, 0), 180), gelatin.InvalidInput, "camera.field_of_view = 180: must be greater than 0 and less than 180"),
+        (gelatin.Camera((0, 2, 9), "ahead"), TypeError, "camera.target = 'ahead': must be three numbers"),
+        ((0, 2, 9), TypeError, "camera = (0, 2, 9): must be a Camera"),
+    ):
+        for draw in sim.render, lambda **options: gelatin.film(sim, 1, width=60, height=40, camera=options["camera"]):
+            with pytest.raises(error) as caught:
+                draw(camera=camera)
+            assert str(caught.value) == problem
+    assert np.array_equal(sim.render(60, 40, camera=gelatin.Camera((0, 9, 0), (0, 2, 0))), before)
 
 
 def test_pictures_change_no_bit(needs_gl):

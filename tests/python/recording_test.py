@@ -40,6 +40,21 @@ def test_a_recording_plays_the_run(tmp_path):
         player["ball"].set_velocity((0, 1, 0))
 
 
+def test_a_recording_is_of_one_run(tmp_path):
+    file = tmp_path / "run.gel"
+    simulator = gelatin.Simulator(falling_ball(), backend="cpu")
+    with pytest.raises(gelatin.InvalidInput, match="frame = 1: must be after frame 4, which is recorded"):
+        with simulator.record(file):
+            simulator.advance(4)
+            simulator.reset()
+            simulator.advance(1)
+    assert gelatin.play(file).frames == [0, 1, 2, 3, 4]
+    with simulator.record(file):
+        simulator.advance(2)
+        simulator.reset()  # after the last frame: there is nothing to add
+    assert gelatin.play(file).frames == [1, 2, 3]
+
+
 def test_a_run_continues_from_a_frame(tmp_path):
     file = tmp_path / "run.gel"
     simulator = gelatin.Simulator(falling_ball(), backend="cpu")

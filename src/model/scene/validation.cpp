@@ -66,7 +66,7 @@ void check_camera(const ValueChecks& checks, const CameraDescription& camera) {
     checks.check(field / "eye", camera.eye);
     checks.check(field / "target", camera.target);
     checks.check(field / "field_of_view", camera.field_of_view, kFieldOfView);
-    if (camera.eye == camera.target)
+    if (glm::vec3(camera.eye) == glm::vec3(camera.target))  // as they are drawn
         checks.fail(field / "eye", text_of(camera.eye), "must not be the target");
 }
 
@@ -156,6 +156,14 @@ void validate(const Scene& scene, const ReportProblem& report) {
     check_objects(checks, scene);
     check_colliders(checks, scene);
     check_attachments(checks, scene);
+}
+
+void check_camera(const CameraDescription& camera) {
+    const ReportProblem report = [](const FieldPath& field, const std::string& value,
+                                    const std::string& problem) {
+        throw InvalidInput({{}, 0, describe(field, {}), value, problem});
+    };
+    check_camera(ValueChecks(report), camera);
 }
 
 std::string name_at(const Scene& scene, const FieldPath& path) {

@@ -18,6 +18,9 @@ using ReportProblem =
 /// in the order of sections, materials, objects, colliders and attachments.
 void validate(const Scene& scene, const ReportProblem& report);
 
+/// A camera that a program gives. @throws InvalidInput naming "camera"
+void check_camera(const CameraDescription& camera);
+
 /// The name of the material, object, collider or attachment that the path starts with; else empty.
 std::string name_at(const Scene& scene, const FieldPath& path);
 
