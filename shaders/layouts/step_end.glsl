@@ -9,13 +9,16 @@ struct BodyEnergy {      // 40 bytes
     uint  is_whole;      // 1: its momenta go by Euler's scheme in this part, whatever its nodes do
     uint  schemes;       // of bodies that are tied to it: 1: some go by Newmark's, 2: by Euler's, 3: both
 };
-// What the end of a part does to the velocities of a body's free nodes: v becomes (1 - part) v + velocity + spin x r.
-struct BodyChange {      // 64 bytes
+// What the end of a part does to the velocities of a body's free nodes: v becomes (1 - part) v + velocity + spin x r, and then, by
+// impacts, which count as no acceleration, v + bounce + turn x r.
+struct BodyChange {      // 96 bytes
     vec4  center;        // of mass where the part ends [m]; w: part
     vec4  velocity;      // [m/s]
     vec4  spin;          // [rad/s]
+    vec4  bounce;        // [m/s]
+    vec4  turn;          // [rad/s]
     uint  action;        // 0: nothing; 1: the part is made; 2: it is made, and the body stays; 3: what the guard has moved is stopped
-    uint  is_struck;     // 1: by another object
+    uint  unused_0;
     uint  unused_1;
     uint  unused_2;
 };

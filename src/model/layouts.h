@@ -47,7 +47,7 @@ static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BodyPlace) == 16);
 static_assert(sizeof(BodyTouch) == 32);
 static_assert(sizeof(BoundingBox) == 48);
-static_assert(sizeof(BodyChange) == 64);
+static_assert(sizeof(BodyChange) == 96);
 static_assert(sizeof(BodyEnergy) == 40);
 static_assert(sizeof(BodyInverse) == 144);
 static_assert(sizeof(BodyMotion) == 32);

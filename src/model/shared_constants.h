@@ -8,9 +8,13 @@ namespace gelatin {
 
 using uint = std::uint32_t;
 
-/// Chosen numbers of contact and the implicit step (cpu/contact/tuning.h).
+/// Chosen numbers of contact and the implicit step.
 namespace contact_tuning {
+#define REAL inline constexpr double
+#define COUNT inline constexpr uint
 #include "layouts/contact_tuning.glsl"
+#undef REAL
+#undef COUNT
 }  // namespace contact_tuning
 
 /// Arguments of the indirect dispatches of collision.

@@ -86,7 +86,8 @@ std::string likely_cause(const Model& model, const Scene& scene, std::uint32_t n
                                     step_too_long(model, scene, step_size)};
     std::erase(causes, std::string());
     if (causes.empty())
-        return "neither the mesh there nor the step size is unusual; check velocities, gravity and sizes";
+        return "neither the mesh there nor the step size is unusual; check velocities, gravity, sizes and "
+               "motors";
     return fmt::format("{}", fmt::join(causes, "; "));
 }
 

@@ -109,8 +109,8 @@ TEST_F(LayoutsTest, StepEnds) {
            FIELD(BodyEnergy, schemes)});
     check("step_end.glsl", "BodyChange", sizeof(BodyChange),
           {FIELD(BodyChange, center), FIELD(BodyChange, velocity), FIELD(BodyChange, spin),
-           FIELD(BodyChange, action), FIELD(BodyChange, is_struck), FIELD(BodyChange, unused_1),
-           FIELD(BodyChange, unused_2)});
+           FIELD(BodyChange, bounce), FIELD(BodyChange, turn), FIELD(BodyChange, action),
+           FIELD(BodyChange, unused_0), FIELD(BodyChange, unused_1), FIELD(BodyChange, unused_2)});
 }
 
 TEST_F(LayoutsTest, StepRows) {

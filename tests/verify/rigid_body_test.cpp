@@ -245,6 +245,29 @@ TEST(RigidBodies, KeepMomentaWhenTheyMeet) {
     EXPECT_GT(std::abs(run.center(2).y + 0.3), 0.01);  // it was hit
 }
 
+// Of a face, whose pairs the guard may clip, as of a plane.
+TEST(RigidBodies, LeaveFacesAndPlanesByTheirRestitution) {
+    ColliderDescription box, plane;
+    box.shape = Shape{BoxShape{{0.1, 1.0, 1.0}}};
+    box.position = {0.6, 0.0, 0.0};
+    plane.shape = PlaneCollider{{-1.0, 0.0, 0.0}, -0.55};
+    for (const ColliderDescription& wall : {box, plane}) {
+        for (const double restitution : {0.5, 1.0}) {
+            for (const double speed : {2.0, 10.0, 40.0}) {
+                Scene scene = rigid_scene(0.0, glm::dvec3(0.0));
+                scene.objects = {rigid_box("die", glm::dvec3(0.1), {0.0, 0.0, 0.0})};
+                scene.objects[0].velocity = {speed, 0.0, 0.0};
+                scene.colliders = {wall};
+                scene.colliders[0].restitution = restitution;
+                MeasuredRun run(scene);
+                run.advance(0.7);
+                EXPECT_NEAR(run.velocity(0).x, -restitution * speed, 0.01 * speed)
+                    << restitution << ' ' << speed;
+            }
+        }
+    }
+}
+
 // From level, without and with a load of several hundred times a link's mass: they fold and whip, and links
 // that are not neighbours hit each other.
 TEST(RigidBodiesHeavy, ChainsThatFallGainNoEnergyAndDoNotStretch) {

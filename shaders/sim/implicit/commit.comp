@@ -1,5 +1,5 @@
 // A part that is made: velocities get what its end gives or takes, accelerations are those that velocities have changed by, whatever
-// did it, and where it ends is where the next begins. A work group a chunk.
+// did it but impacts, and where it ends is where the next begins. A work group a chunk.
 // CPU twins: gelatin::cpu::TimeScheme::end, ImplicitStep::stand_still. Parity: tests/gpu/implicit/part_end_test.cpp.
 #include "layouts/step_end.glsl"
 #include "layouts/step_state.glsl"
@@ -33,8 +33,10 @@ void main() {
         else if (x.w > 0.0)
             v.xyz += change.velocity.xyz - change.center.w * v.xyz + cross(change.spin.xyz, x.xyz - change.center.xyz);
         accelerations[n] = vec4(rate_by(scheme, accelerations[n].xyz, v.xyz - before.xyz), 0.0);
+        bool stays = change.action == 2u;  // x may not be finite
+        if (x.w > 0.0 && !stays) v.xyz += change.bounce.xyz + cross(change.turn.xyz, x.xyz - change.center.xyz);
         start_velocities[n] = v;
-        if (change.action == 2u) continue;
+        if (stays) continue;
         start_positions[n] = x;
         for (uint k = 0u; k < collider_count && n < body_node_count; ++k)
             memories[k * body_node_count + n] = notes[k * body_node_count + n];

@@ -18,7 +18,6 @@ struct Impacting {
     dvec3 after, spin_after;       // and where it ends
     double energy_before, energy;  // [J]
     dvec3 impulse, moment;         // that it gets by impacts
-    bool is_struck;
 };
 
 double pressed_sum(uint p, uint o, uint k) {
@@ -58,7 +57,6 @@ bool strike(uint at, double restitution, double left, inout Impacting body) {
         dvec3 impulse = lacking / mobility * normal;
         body.impulse += impulse;
         body.moment += cross(arm, impulse);
-        body.is_struck = true;
         body.energy += lacking * (apart + 0.5LF * lacking) / mobility;
     }
     return true;

@@ -31,7 +31,7 @@ double guard_sum(uint o, uint k) {
 void stop(IslandBodies island) {
     uint first = first_body(island);
     vec3 origin = center_of(first);
-    BodyChange change = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), 0u, 0u, 0u, 0u);
+    BodyChange change = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), 0u, 0u, 0u, 0u);
     double motion[kMotionSums], own[kMotionSums];
     for (uint k = 0u; k < kMotionSums; ++k) motion[k] = 0.0LF;
     for (uint at = island.first; at < island.end; ++at) {

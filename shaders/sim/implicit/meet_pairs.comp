@@ -184,7 +184,6 @@ bool strike(uint at) {
         changes[o].velocity.xyz += vec3(impulse);
         changes[o].spin.xyz += vec3(cross(point - sides[k].center, impulse));
         changes[o].center.w += float(lacking * (apart + 0.5LF * lacking) / mobility / double(free_count));
-        changes[o].is_struck = 1u;
     }
     return true;
 }
@@ -197,7 +196,6 @@ void main() {
     for (uint o = lane; o < body_count; o += kLanes) {
         changes[o].center.w = 0.0;
         changes[o].velocity = changes[o].spin = vec4(0.0);
-        changes[o].is_struck = 0u;
     }
     uint count = find_meetings(uint(meetings[0]));
     wait_for_group();

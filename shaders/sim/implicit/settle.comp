@@ -36,12 +36,12 @@ double pay(uint o, inout BodyChange change) {
     return double(paces[o].velocity.w) / island_sum(o, kIslandMass) * left;
 }
 
-// Of a free body, what happens to its motion; else its impacts are forgotten. @return whether it is struck
-bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], inout BodyChange change) {
+// Of a free body, what happens to its motion; else its impacts are forgotten.
+void end_motion(uint o, float size, bool is_free, double motion[kMotionSums], inout BodyChange change) {
     if (!is_free) {
         for (uint p = 0u; p < collider_count; ++p)
             for (uint k = 0u; k < kMeeting; ++k) meetings[(p * object_count + o) * kMeeting + k] = 0.0LF;
-        return false;
+        return;
     }
     dvec3 momentum = triple(motion, kMomentum);
     Impacting body;
@@ -52,31 +52,30 @@ bool end_motion(uint o, float size, bool is_free, double motion[kMotionSums], in
     body.energy_before = energy_before(o, energies[o].elastic);
     body.energy = energy_after(o);
     body.impulse = body.moment = dvec3(0.0LF);
-    body.is_struck = false;
 #ifdef PAIRS
     BodyChange by_others = changes[o];
     body.energy += double(by_others.center.w);
     body.impulse = dvec3(by_others.velocity.xyz);
     body.moment = dvec3(by_others.spin.xyz);
-    body.is_struck = by_others.is_struck != 0u;
 #endif
     for (uint p = 0u; p < collider_count; ++p) bounce(p, o, body);
     double part = double(change.center.w);
     change.center.xyz = vec3(body.now.center) + texelFetch(bodies, 5 * int(o)).xyz;
-    change.velocity = vec4(vec3(part * body.now.velocity + body.now.inverse_mass * body.impulse), 0.0);
-    change.spin = vec4(vec3(part * body.now.spin + body.now.inverse_inertia * body.moment), 0.0);
-    find_rates(o, size, momentum + body.impulse, triple(motion, kAngular) - cross(body.now.center, momentum) + body.moment);
-    return body.is_struck;
+    change.velocity = vec4(vec3(part * body.now.velocity), 0.0);
+    change.spin = vec4(vec3(part * body.now.spin), 0.0);
+    change.bounce = vec4(vec3(body.now.inverse_mass * body.impulse), 0.0);
+    change.turn = vec4(vec3(body.now.inverse_inertia * body.moment), 0.0);
+    find_rates(o, size, momentum, triple(motion, kAngular) - cross(body.now.center, momentum));
 }
 
 void make(uint o, float size) {
     bool is_free = texelFetch(bodies, 5 * int(o)).w > 0.0, was_stopped = changes[o].action == 3u;
     double motion[kMotionSums];
     find_motion(o, motion);
-    BodyChange change = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), 1u, 0u, 0u, 0u);
+    BodyChange change = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), 1u, 0u, 0u, 0u);
     double debt = pay(o, change);
-    bool is_struck = end_motion(o, size, is_free, motion, change);
-    paces[o].is_struck = is_struck || was_stopped ? 1u : 0u;
+    end_motion(o, size, is_free, motion, change);
+    paces[o].is_struck = was_stopped ? 1u : 0u;
     energies[o].elastic = energy_sum(o, kElastic);
     energies[o].contacts = part_sum(o, kContactsAtEnd);
     energies[o].debt = debt;
@@ -88,7 +87,7 @@ void stay(uint o, float size) {
     paces[o].is_struck = 1u;
     find_rates(o, size, dvec3(0.0LF), dvec3(0.0LF));
     energies[o].contacts = energies[o].debt = 0.0LF;
-    changes[o] = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), 2u, 0u, 0u, 0u);
+    changes[o] = BodyChange(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), 2u, 0u, 0u, 0u);
 }
 
 void main() {

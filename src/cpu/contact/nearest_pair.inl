@@ -113,3 +113,27 @@ NearestPair<Real> nearest_of_edges(const Vec3<Real>& a, const Vec3<Real>& b, con
                                    (dot(w, normal) * inverse) * normal);
     return choose(inside > none, within, at_end);
 }
+
+template <class Vector3>
+Vector3 larger_of(const Vector3& a, const Vector3& b) {
+    return Vector3(larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z));
+}
+
+template <class Vector3>
+Vector3 magnitude(const Vector3& v) {
+    return larger_of(v, Vector3(v - v) - v);
+}
+
+/// Bound of what rounding makes of a difference of the nodes' heights along a direction.
+/// @param apart along it, as long as `gap`
+template <class Real>
+Real rounding_along(const Vec3<Real>& apart, Real gap, const Vec3<Real> (&nodes)[4]) {
+    const Real none(0);
+    Vec3<Real> extent(none), reach = magnitude(nodes[0]);
+    for (int k = 1; k < 4; ++k) {
+        extent = larger_of(extent, magnitude(nodes[k] - nodes[0]));
+        reach = larger_of(reach, magnitude(nodes[k]));
+    }
+    const Vec3<Real> normal = select(gap > none, Real(1) / gap, none) * apart;
+    return Real(kEpsilon<Real>) * dot(magnitude(normal), multiply_add(Real(8), extent, Real(4) * reach));
+}

@@ -20,8 +20,7 @@ struct alignas(32) MeasuredPairs {
     std::array<Column, 4> weights;  ///< of the nodes in the nearest points
     std::array<Column, 3> apart;    ///< from the first side's to the second's [m]
     Column gaps;                    ///< its length [m]
-    std::array<Column, 4> heights;  ///< of the nodes along it, from the first node [m]
-    Column rounding;                ///< bound of what rounding makes of a difference of heights [m]
+    Column rounding;                ///< bound of what rounding makes of a difference of heights along it [m]
 };
 
 /// Measures up to kPairBlock pairs, all of nodes and faces or all of edges; in float with SIMD for the

@@ -132,7 +132,7 @@ Real AttachmentRows<Real>::stiffness_of(const ContactRow<Real>& row, std::span<c
                                         Real shared) const {
     // Of rigid bodies: of a length that steps with them usually have, as energy comes from stiffness that
     // changes.
-    constexpr double kPart = tuning::kFrame / tuning::kParts[0];
+    constexpr double kPart = tuning::kFrame / tuning::kPartsOfMoving;
     constexpr auto kOfMass = static_cast<Real>(kPart * kPart * tuning::kTied / tuning::kRigidTied);
     Real yield = 0;
     for (std::uint32_t k = 0; k < row.count; ++k) {

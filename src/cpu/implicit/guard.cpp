@@ -268,7 +268,7 @@ void Guard<Real>::place_body(std::uint32_t object, const Paths<Real>& paths, std
             });
         }
     };
-    for (int k = 0; k < tuning::kProjections; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kProjections; ++k) {
         bool is_outside = false;
         glm::dvec3 force(0.0), moment(0.0);
         double most = 0.0;
@@ -287,7 +287,7 @@ void Guard<Real>::place_body(std::uint32_t object, const Paths<Real>& paths, std
         w -= inertia.inverse_inertia * moment;
     }
     double part = is_frozen ? 0.0 : 1.0;
-    for (int k = 0; part > 0.0; ++k) {
+    for (std::uint32_t k = 0; part > 0.0; ++k) {
         double shorter = 1.0;
         for_all(part, [&](const glm::dvec3&, double along, double room, const glm::dvec3&) {
             shorter = std::min(shorter, 0.99 * std::max(room, 0.0) / along);
@@ -307,7 +307,7 @@ template <class Real>
 void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
     Vec3<Real> d = wanted_[node];
     const Real tiny = Real(1e-6) * glm::length(d);
-    for (int k = 0; k < tuning::kProjections; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kProjections; ++k) {
         bool is_outside = false;
         for_spaces(node, paths, [&](const HalfSpace& space) {
             const Real over = glm::dot(space.normal, d) - space.room;

@@ -141,6 +141,10 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             find_targets(input, previous);
             linearise(input, previous);
         }
+        if (!is_shortest && turns_far()) {
+            divide();
+            continue;
+        }
         {
             const TimedStage part(timer, "advance_nodes.solve");
             system_.solve(islands_.of_bodies);
@@ -171,6 +175,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         const TimedStage part(timer, "advance_nodes.guard");
         std::vector<std::uint32_t> stopped;  // bodies
         const std::vector<Vec4<Real>> before_guard = current.positions;
+        const Field solved = system_.displacements;
         if (guard(previous, before_guard, current)) {
             for (const std::uint32_t o : rigid_bodies_.objects()) {  // joints may be stretched by it
                 const Range& nodes = model_->objects[o].nodes;
@@ -191,24 +196,22 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             divide();
             continue;
         }
-        if (!std::isfinite(gained)) {
-            stand_still(previous, current);
-            break;
-        }
+        is_made_ = std::isfinite(gained);
+        if (!is_made_) break;
         if (attachments_.break_pulled()) continue;  // a part with more than they hold was not made
         energy_.settle(islands_, current);
         rows_.remember();
         attachments_.end_step();
+        scheme_.end(previous, current);
         const double gravity = glm::length(glm::dvec3(model_->gravity));
-        if (restitution_.run(
-                {static_cast<double>(input.step), 2.0 * tuning::kRestingFall * gravity, system_.rows,
-                 system_.displacements, previous, energy_.before(), energy_.after()},
-                system_.rigid, current, paces_.struck()))
+        if (restitution_.run({static_cast<double>(input.step), 2.0 * tuning::kFrame * gravity, system_.rows,
+                              solved, previous, energy_.before(), energy_.after()},
+                             system_.rigid, current))
             energy_.change();
+        std::fill(paces_.struck().begin(), paces_.struck().end(), std::uint8_t(0));
         for (const std::uint32_t o : stopped) paces_.struck()[o] = 1;
         break;
     }
-    scheme_.end(previous, current);
     return input.step;
 }
 
@@ -288,7 +291,6 @@ std::vector<std::uint32_t> ImplicitStep<Real>::count_held(const Nodes<Real>& nod
     return counts;
 }
 
-// Where even the shortest step fails.
 template <class Real>
 void ImplicitStep<Real>::stand_still(const Nodes<Real>& previous, Nodes<Real>& current) {
     current = previous;
@@ -298,6 +300,7 @@ void ImplicitStep<Real>::stand_still(const Nodes<Real>& previous, Nodes<Real>& c
     for (std::uint32_t n = 0; n < model_->node_count(); ++n)
         if (previous.positions[n].w != Real(0))
             current.velocities[n] = Vec4<Real>(Vec3<Real>(0), previous.velocities[n].w);
+    scheme_.end(previous, current);
 }
 
 // How far contacts would come into each other without forces, in reaches.
@@ -310,6 +313,17 @@ Real ImplicitStep<Real>::deepest() const {
         deepest = std::max(deepest, -row.gap_at(relative<Real>(row, expected_)) / most);
     }
     return deepest;
+}
+
+// Of a body with rows, which are linear in how it rotates.
+template <class Real>
+bool ImplicitStep<Real>::turns_far() const {
+    const auto turns = [&](std::uint32_t object) {
+        return object != kNoNode && model_->is_body(object) && system_.rigid.is_free(object) &&
+               glm::length(system_.rigid.wanted_rotation(object)) > tuning::kMostTurn;
+    };
+    return std::any_of(system_.rows.begin(), system_.rows.end(),
+                       [&](const ContactRow<Real>& row) { return turns(row.object) || turns(row.other); });
 }
 
 // @return whether the part was too long
@@ -461,7 +475,7 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, const std::vector<Ve
     blocked_.clear();
     bool has_changed = false;
     std::size_t checked = 0;
-    for (int k = 0; k < tuning::kMostGuards; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
             guard_.run(paths, pairs_.pairs(), compliances_, current.positions, blocked_, checked);
         if (attachments_.block_held(current.positions, surface_->thicknesses, blocked_)) {

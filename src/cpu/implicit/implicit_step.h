@@ -65,6 +65,11 @@ public:
     Real run(const StepInput<Real>& wanted, Real shortest, Nodes<Real>& previous, Nodes<Real>& current,
              StageTimer* timer);
 
+    /// Whether the last run found values that are finite.
+    bool is_made() const { return is_made_; }
+    /// In place of what it found, if they are not: nodes stay where they are.
+    void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
+
     /// A response to collisions has changed nodes since the last step: energies are found anew.
     void change() { energy_.change(); }
     /// Goes on from where bodies were put between steps, if nothing is in between but they themselves.
@@ -117,9 +122,9 @@ private:
     void find_released(const Nodes<Real>& previous);
     bool is_torn(bool limits);
     std::vector<std::uint32_t> count_held(const Nodes<Real>& nodes) const;
-    void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real deepest() const;
+    bool turns_far() const;
     bool shorten(StepInput<Real>& input) const;
     bool detect(const Nodes<Real>& previous, bool is_shortest, bool own = true);
     bool guard(const Nodes<Real>& previous, const std::vector<Vec4<Real>>& wanted, Nodes<Real>& current);
@@ -147,6 +152,7 @@ private:
     std::vector<std::uint32_t> held_counts_;  // of bodies' nodes, when the last step began
     Islands islands_;
     Real step_ = 0;
+    bool is_made_ = true;
     std::vector<double> cavity_drives_;
     std::vector<std::uint8_t> blocked_;          // objects, in the last guard
     std::vector<Real> compliances_;              // of nodes in contacts, 1 / h_i [m/N]

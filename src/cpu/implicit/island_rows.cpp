@@ -81,7 +81,7 @@ double IslandRows<Real>::line_search(std::span<const Vec3<Real>> changes, double
     if (!(first > 0.0)) return 0.0;
     if (fall(1.0) >= -tuning::kTurned * first) return 1.0;
     double low = 0.0, high = 1.0;
-    for (int k = 0; k < tuning::kMostRounds; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kMostRounds; ++k) {
         const double middle = 0.5 * (low + high), there = fall(middle);
         if (std::abs(there) <= tuning::kTurned * first) return middle;
         (there > 0.0 ? low : high) = middle;

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "cpu/implicit/rigid_inertia.h"
+#include "cpu/nodes.h"
 
 namespace gelatin::cpu {
 
@@ -15,6 +16,17 @@ inline Motion motion(const glm::dvec3& translation, const glm::dvec3& rotation) 
     Motion m;
     m << translation.x, translation.y, translation.z, rotation.x, rotation.y, rotation.z;
     return m;
+}
+inline glm::dvec3 translation(const Motion& m) {
+    return {m(0), m(1), m(2)};
+}
+inline glm::dvec3 rotation(const Motion& m) {
+    return {m(3), m(4), m(5)};
+}
+/// What a motion displaces at an arm from the body's centre [m].
+template <class Real>
+Vec3<Real> displacement(const Motion& m, const Vec3<Real>& arm) {
+    return Vec3<Real>(translation(m)) + glm::cross(Vec3<Real>(rotation(m)), arm);
 }
 
 /// sum k J^T J, J (s, w) = s + w x r.

@@ -41,7 +41,9 @@ std::uint32_t Paces<Real>::count_parts(std::span<const ContactRow<Real>> rows) c
         for (const std::uint32_t o : {row.object, row.other})
             if (o != kNoNode && model_->is_body(o)) pace = std::min(pace, paces_[o]);
     }
-    return tuning::kParts[static_cast<std::size_t>(pace)];
+    return pace == Pace::moving ? tuning::kPartsOfMoving
+           : pace == Pace::calm ? tuning::kPartsOfCalm
+                                : tuning::kPartsOfStill;
 }
 
 // So do bodies that are struck, for a step; and islands that touch something, and of which the step resolves
@@ -96,7 +98,7 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
 template <class Real>
 void Paces<Real>::find(const StepSystem<Real>& system, std::span<const std::uint8_t> asleep,
                        const Nodes<Real>& current) {
-    const double slow = tuning::kRestingFall * glm::length(glm::dvec3(model_->gravity));
+    const double slow = tuning::kFrame * glm::length(glm::dvec3(model_->gravity));
     std::vector<Motion> motions(system.rigid.count(), Motion::Zero());
     std::vector<double> vibrations(model_->body_count(), 0.0), fastest = vibrations, pressing = vibrations,
                                                                approach = vibrations;

@@ -69,9 +69,7 @@ void Restitution<Real>::note(const Step& step, const RigidLevel<Real>& rigid, co
 }
 
 template <class Real>
-bool Restitution<Real>::run(const Step& step, const RigidLevel<Real>& rigid, Nodes<Real>& current,
-                            std::span<std::uint8_t> is_struck) {
-    std::fill(is_struck.begin(), is_struck.end(), std::uint8_t(0));
+bool Restitution<Real>::run(const Step& step, const RigidLevel<Real>& rigid, Nodes<Real>& current) {
     if (step.rows.empty() && meetings_.empty()) return false;
     note(step, rigid, current);
     std::vector<double> energies_after(step.energies_after.begin(), step.energies_after.end());
@@ -109,7 +107,7 @@ bool Restitution<Real>::run(const Step& step, const RigidLevel<Real>& rigid, Nod
                                           impact.apart);
             }
             if (is_over && lacking > 0.0) {
-                strike(impact, lacking, current, is_struck);
+                strike(impact, lacking, current);
                 for (const Side& side : impact.sides)
                     energies_after[side.object] += lacking * (impact.apart + 0.5 * lacking) /
                                                    impact.mobility / static_cast<double>(impact.sides.size());
@@ -144,8 +142,7 @@ typename Restitution<Real>::Impact Restitution<Real>::find_impact(const Pair& pa
 }
 
 template <class Real>
-void Restitution<Real>::strike(const Impact& impact, double speed, Nodes<Real>& current,
-                               std::span<std::uint8_t> is_struck) const {
+void Restitution<Real>::strike(const Impact& impact, double speed, Nodes<Real>& current) const {
     for (const Side& side : impact.sides) {
         const glm::dvec3 impulse = side.sign * speed / impact.mobility * impact.normal;
         const Twist change{
@@ -155,7 +152,6 @@ void Restitution<Real>::strike(const Impact& impact, double speed, Nodes<Real>& 
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             current.velocities[n] +=
                 Vec4<Real>(Vec3<Real>(change.at(glm::dvec3(current.positions[n]) - side.body.center)), 0);
-        is_struck[side.object] = 1;
     }
 }
 

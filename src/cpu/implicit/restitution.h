@@ -35,11 +35,8 @@ public:
         /// Of bodies, when it began and when it has ended [J], shape [bodies].
         std::span<const double> energies_before, energies_after;
     };
-    /// @param rigid of the step @param current velocities of free bodies change
-    /// @param is_struck output: bodies whose velocities did, shape [bodies]
-    /// @return whether any did
-    bool run(const Step& step, const RigidLevel<Real>& rigid, Nodes<Real>& current,
-             std::span<std::uint8_t> is_struck);
+    /// @param rigid of the step @param current velocities of free bodies change @return whether any did
+    bool run(const Step& step, const RigidLevel<Real>& rigid, Nodes<Real>& current);
     void forget() { meetings_.clear(); }
     void archive(Archive& archive) { archive.map(meetings_); }
 
@@ -75,8 +72,7 @@ private:
     void note(const Step& step, const RigidLevel<Real>& rigid, const Nodes<Real>& current);
     Impact find_impact(const Pair& pair, const Meeting& meeting, const RigidLevel<Real>& rigid,
                        const Nodes<Real>& current) const;
-    void strike(const Impact& impact, double speed, Nodes<Real>& current,
-                std::span<std::uint8_t> is_struck) const;
+    void strike(const Impact& impact, double speed, Nodes<Real>& current) const;
     double restitution_of(const Pair& pair) const;
     bool is_free_body(std::size_t object, const RigidLevel<Real>& rigid) const {
         return object < model_->body_count() && rigid.is_free(object);

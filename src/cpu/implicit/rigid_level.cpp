@@ -87,9 +87,8 @@ template <class Real>
 void RigidLevel<Real>::make_rigid(std::size_t object, std::span<const Real> inertia,
                                   std::span<Vec3<Real>> displacements) const {
     const Motion part = rigid_part(object, inertia, displacements);
-    const Vec3<Real> s(part(0), part(1), part(2)), w(part(3), part(4), part(5));
     const Range& nodes = model_->objects[object].nodes;
-    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) displacements[n] = s + glm::cross(w, arms_[n]);
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) displacements[n] = displacement(part, arms_[n]);
 }
 
 template <class Real>
@@ -97,8 +96,7 @@ void RigidLevel<Real>::follow_rotation(std::span<const Vec4<Real>> positions, st
                                        std::span<Vec3<Real>> displacements, std::span<Vec3<Real>> forces) {
     for_each_index(0, bodies_.size(), 1, [&](std::size_t b) {
         Body& body = bodies_[b];
-        const Motion rigid = rigid_part(body.object, inertia, displacements);
-        const glm::dvec3 w = body.rotation = {rigid(3), rigid(4), rigid(5)};
+        const glm::dvec3 w = body.rotation = rotation(rigid_part(body.object, inertia, displacements));
         const Range& nodes = model_->objects[body.object].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const glm::dvec3 r = glm::dvec3(positions[n]) - body.center;
@@ -126,13 +124,13 @@ void RigidLevel<Real>::rotate(std::span<const Vec4<Real>> positions, std::span<c
     for_each_index(0, bodies_.size(), 1, [&](std::size_t b) {
         const Body& body = bodies_[b];
         const Motion rigid = rigid_part(body.object, inertia, displacements);
-        const glm::dvec3 s(rigid(0), rigid(1), rigid(2)), w(rigid(3), rigid(4), rigid(5));
-        const glm::dmat3 rotation = rotation_about(w);
+        const glm::dvec3 s = translation(rigid), w = rotation(rigid);
+        const glm::dmat3 turn = rotation_about(w);
         const Range& nodes = model_->objects[body.object].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const glm::dvec3 r = glm::dvec3(positions[n]) - body.center;
             const glm::dvec3 rest = glm::dvec3(displacements[n]) - s - glm::cross(w, r);
-            displacements[n] = Vec3<Real>(s + rotation * (r + rest) - r);
+            displacements[n] = Vec3<Real>(s + turn * (r + rest) - r);
         }
     });
 }

@@ -44,8 +44,7 @@ public:
     Motion velocity(std::size_t object, std::span<const Vec4<Real>> velocities) const;
     /// A motion where a node of a free body is.
     Vec3<Real> at(std::size_t node, std::span<const Motion> motions) const {
-        const Motion& m = motions[body_of_[node]];
-        return Vec3<Real>(m(0), m(1), m(2)) + glm::cross(Vec3<Real>(m(3), m(4), m(5)), arms_[node]);
+        return displacement(motions[body_of_[node]], arms_[node]);
     }
     /// The rigid part of displacements of a free body's nodes, by inertia. @param inertia as in begin()
     Motion rigid_part(std::size_t object, std::span<const Real> inertia,
@@ -59,7 +58,9 @@ public:
     /// @param displacements that inertia wants [m] @param forces of elements [N]; both input and output
     void follow_rotation(std::span<const Vec4<Real>> positions, std::span<const Real> inertia,
                          std::span<Vec3<Real>> displacements, std::span<Vec3<Real>> forces);
-    /// After it: what those of soft bodies will add to s of a row [m].
+    /// After it: w of a free body [rad].
+    const glm::dvec3& wanted_rotation(std::size_t object) const { return bodies_[numbers_[object]].rotation; }
+    /// And what those of soft bodies will add to s of a row [m].
     Vec3<Real> added_by_rotation(const ContactRow<Real>& row) const;
 
     /// The rigid part of a displacement of free bodies becomes a true rotation: to first order, as linear

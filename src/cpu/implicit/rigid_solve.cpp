@@ -15,11 +15,6 @@
 namespace gelatin::cpu {
 namespace {
 
-glm::dmat3 matrix_of(const SymmetricMatrix<double>& h) {
-    const glm::dvec3 &d = h.diagonal, &b = h.beside;
-    return {d.x, b.z, b.y, b.z, d.y, b.x, b.y, b.x, d.z};
-}
-
 // m [r], where [r] v = r x v.
 glm::dmat3 times_cross(const glm::dmat3& m, const glm::dvec3& r) {
     return {m[1] * r.z - m[2] * r.y, m[2] * r.x - m[0] * r.z, m[0] * r.y - m[1] * r.x};
@@ -30,19 +25,14 @@ glm::dmat3 cross_times(const glm::dvec3& r, const glm::dmat3& m) {
     return {glm::cross(r, m[0]), glm::cross(r, m[1]), glm::cross(r, m[2])};
 }
 
-glm::dvec3 displacement(const Motion& m) {
-    return {m(0), m(1), m(2)};
-}
-glm::dvec3 rotation(const Motion& m) {
-    return {m(3), m(4), m(5)};
+// The same of glm and of Eigen, which both have columns one after the other.
+Eigen::Map<const Eigen::Matrix3d> eigen(const glm::dmat3& m) {
+    return Eigen::Map<const Eigen::Matrix3d>(&m[0][0]);
 }
 
 // Of a symmetric matrix.
 glm::dmat3 positive_part(const glm::dmat3& m) {
-    Eigen::Matrix3d matrix;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) matrix(i, j) = m[j][i];
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(matrix);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(eigen(m));
     glm::dmat3 part(0.0);
     for (int k = 0; k < 3; ++k) {
         const glm::dvec3 a(solved.eigenvectors()(0, k), solved.eigenvectors()(1, k),
@@ -159,7 +149,7 @@ void RigidSolve<Real>::find_matrix(std::span<const RowTangent<Real>> tangents) {
         for (std::uint32_t r = pair.rows.first; r < pair.rows.end(); ++r) {
             const SymmetricMatrix<Real>& h = tangents[r].stiffness;
             if (!(h.diagonal.x + h.diagonal.y + h.diagonal.z > Real(0))) continue;
-            const glm::dmat3 stiffness = matrix_of({glm::dvec3(h.diagonal), glm::dvec3(h.beside)});
+            const glm::dmat3 stiffness = full({glm::dvec3(h.diagonal), glm::dvec3(h.beside)});
             const double whole = rows_.rows[r].is_couple ? 0.0 : 1.0;
             pair.stiffness += whole * stiffness;
             for (std::size_t side = 0; side < 2; ++side) {
@@ -174,18 +164,14 @@ void RigidSolve<Real>::find_matrix(std::span<const RowTangent<Real>> tangents) {
     inverses_.resize(count());
     for_each_index(0, count(), 8, [&](std::size_t b) {
         MotionMatrix& own = diagonal_[b] = level_.matrix(bodies_[b]);
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) own(3 + i, 3 + j) += turning_[b][j][i];
+        own.bottomRightCorner<3, 3>() += eigen(turning_[b]);
         for (std::uint32_t c = coupling_starts_[b]; c < coupling_starts_[b + 1]; ++c) {
             const auto& [p, side] = couplings_[c];
             const Pair& pair = pairs_[p];
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) {
-                    own(i, j) += pair.stiffness[j][i];
-                    own(i, 3 + j) += pair.by_rotation[side][j][i];
-                    own(3 + j, i) += pair.by_rotation[side][j][i];
-                    own(3 + i, 3 + j) += pair.moments[side][j][i];
-                }
+            own.topLeftCorner<3, 3>() += eigen(pair.stiffness);
+            own.topRightCorner<3, 3>() += eigen(pair.by_rotation[side]);
+            own.bottomLeftCorner<3, 3>() += eigen(pair.by_rotation[side]).transpose();
+            own.bottomRightCorner<3, 3>() += eigen(pair.moments[side]);
         }
         inverses_[b] = coupling_starts_[b] == coupling_starts_[b + 1] ? level_.inverse(bodies_[b])
                                                                       : own.inverse().eval();
@@ -202,7 +188,7 @@ std::vector<Motion> RigidSolve<Real>::multiply(std::span<const Motion> motions) 
             const Pair& pair = pairs_[p];
             const std::uint32_t other = pair.bodies[1 - side];
             if (other == kNoNode) continue;
-            const glm::dvec3 s = displacement(motions[other]), w = rotation(motions[other]);
+            const glm::dvec3 s = translation(motions[other]), w = rotation(motions[other]);
             force -= pair.stiffness * s + pair.by_rotation[1 - side] * w;
             moment -= s * pair.by_rotation[side] + (side == 0 ? pair.across * w : w * pair.across);
         }
@@ -212,7 +198,7 @@ std::vector<Motion> RigidSolve<Real>::multiply(std::span<const Motion> motions) 
 }
 
 template <class Real>
-int RigidSolve<Real>::solve(std::span<Motion> motions, double left) const {
+std::uint32_t RigidSolve<Real>::solve(std::span<Motion> motions, double left) const {
     std::vector<Motion> residual(motions.begin(), motions.end()), z(count());
     const auto find_z = [&] {
         for (std::size_t b = 0; b < count(); ++b) z[b] = precondition(b, residual[b]);
@@ -222,7 +208,7 @@ int RigidSolve<Real>::solve(std::span<Motion> motions, double left) const {
     std::vector<Motion> p = z;
     std::fill(motions.begin(), motions.end(), Motion::Zero());
     const double enough = left * rz;
-    int k = 0;
+    std::uint32_t k = 0;
     while (rz > enough && k < tuning::kMostRigidIterations) {
         const std::vector<Motion> product = multiply(p);
         const double curvature = dot(p, product);
@@ -266,7 +252,7 @@ Vec3<Real> RigidSolve<Real>::relative(std::size_t row, const std::array<glm::dve
         if (bodies[side] == kNoNode) continue;
         const Motion& m = motions[bodies[side]];
         glm::dvec3 d = glm::cross(rotation(m), arms[side]);
-        if (!rows_.rows[row].is_couple) d += displacement(m);
+        if (!rows_.rows[row].is_couple) d += translation(m);
         s += side == 0 ? -d : d;
     }
     const ContactRow<Real>& of = rows_.rows[row];
@@ -313,7 +299,7 @@ std::vector<Motion> RigidSolve<Real>::run(std::vector<Motion> base, std::span<co
         add_rows(sums);
         return sums;
     };
-    for (int round = 0; round < tuning::kMostRounds; ++round) {
+    for (std::uint32_t round = 0; round < tuning::kMostRounds; ++round) {
         std::vector<Motion> step = forces();
         if (is_balanced(tuning::kNearBalance, step)) {
             rows_.set_limits();

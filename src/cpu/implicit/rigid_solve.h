@@ -40,7 +40,7 @@ public:
     Motion precondition(std::size_t body, const Motion& force) const { return inverses_[body] * force; }
     /// E^-1. @param motions input: forces; output: motions @param left what may still be lacking of the
     /// energy, as a part of what was @return iterations
-    int solve(std::span<Motion> motions, double left) const;
+    std::uint32_t solve(std::span<Motion> motions, double left) const;
     /// Adds W^T of the forces of rows.
     void add_rows(std::span<Motion> sums) const;
     /// s of a row for motions.

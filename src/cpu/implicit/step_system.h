@@ -59,6 +59,9 @@ private:
     template <class>
     friend class IslandSolve;
     using Field = std::vector<Vec3<Real>>;
+    struct RowEntry {
+        std::uint32_t row, place;
+    };
     // Bodies that are awake, ascending, and their rows.
     struct Island {
         std::vector<std::uint32_t> bodies;
@@ -68,12 +71,13 @@ private:
 
     std::vector<Island> sort_by_island(std::span<const std::uint32_t> islands_of_bodies);
     void index_rows();
+    // With a node among theirs.
+    std::span<const RowEntry> rows_at(std::uint32_t node) const {
+        return std::span(row_entries_).subspan(row_starts_[node], row_starts_[node + 1] - row_starts_[node]);
+    }
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint8_t> asleep_;  // bodies
-    struct RowEntry {
-        std::uint32_t row, place;
-    };
     std::vector<std::uint32_t> row_starts_;
     std::vector<RowEntry> row_entries_;  // by node
     GluedNodes<Real> glued_;

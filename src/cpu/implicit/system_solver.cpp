@@ -102,6 +102,7 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
     if (!shape_matcher_.run(to_, step.size).empty() && !step_.follow(from_, to_)) to_ = from_;
     Real longest =
         size;  // twice the last part, so that those that are divided do not begin with all that is left
+    bool any_is_made = false;
     for (Real left = size; left > Real(0.5) * shortest; left -= input.step) {
         for (std::size_t n = 0; n < goals_.size(); ++n) {
             if (current_.positions[n].w != Real(0)) continue;
@@ -113,6 +114,10 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
         this->sum_loads(step, from_);
         input.step = std::min(left, longest);
         input.step = step_.run(input, shortest, from_, to_, timer);
+        any_is_made = any_is_made || step_.is_made();
+        // What fails in all parts of a step is left as it is found: whoever watches it says so.
+        if (!step_.is_made() && (any_is_made || left - input.step > Real(0.5) * shortest))
+            step_.stand_still(from_, to_);
         longest = Real(2) * input.step;
     }
     if (!model_->handles.empty() && model_->is_body(model_->handles[0].object))

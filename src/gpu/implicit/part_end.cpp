@@ -159,7 +159,7 @@ std::vector<double> PartEnd::read_pair_meetings() const {
 // What does not change from step to step.
 void PartEnd::bind_buffers() const {
     const auto gravity = static_cast<double>(glm::length(gravity_));
-    const double slow = static_cast<double>(contact_tuning::kRestingFall) * gravity;
+    const double slow = static_cast<double>(contact_tuning::kFrame) * gravity;
     for (const gl::Program* program : programs_.all()) {
         state_->bind(*program);
         system_->buffers().bind(*program);

@@ -82,7 +82,7 @@ TEST_F(RigidSolveTest, SolvesForMotions) {
         for (int k = 0; k < 6; ++k) force(k) = random.uniform(-1.0, 1.0);
     bodies_.find_matrix(tangents_);
     std::vector<cpu::Motion> motions = forces;
-    EXPECT_LE(bodies_.solve(motions, 1e-24), 25);  // 18 unknowns, but for rounding
+    EXPECT_LE(bodies_.solve(motions, 1e-24), 25u);  // 18 unknowns, but for rounding
     for (std::size_t r = 0; r < rows_.size(); ++r)
         forces_[r] = tangents_[r].stiffness * bodies_.relative(r, motions);
     std::vector<cpu::Motion> resistance(motions.size());

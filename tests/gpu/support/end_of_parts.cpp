@@ -140,7 +140,8 @@ public:
         }
         for (const Outcome wanted : at_.outcomes)
             error_.fail_if(std::find(outcomes.begin(), outcomes.end(), wanted) == outcomes.end());
-        error_.fail_if((at_.is_struck && !was_struck_) || (at_.is_guarded && !was_guarded_));
+        error_.fail_if((at_.bounces && !reference_.has_bounced) || (at_.is_struck && !was_struck_) ||
+                       (at_.is_guarded && !was_guarded_));
         error_.fail_if(largest_island_ < at_.island || (at_.is_torn && !was_torn_));
         return error_.worst();
     }

@@ -35,6 +35,7 @@ struct EndCase {
     std::vector<EndReference::Outcome> outcomes = {};  // of tries that have to be among them
     bool is_struck = false;                            ///< some body has to be struck
     bool is_guarded = false;                           ///< the guard has to move nodes
+    bool bounces = false;                              ///< some body has to end an impact faster
     bool contacts = false;                             ///< objects meet each other, and bodies themselves
     /// With contacts: the most bodies of an island of any part; whether bodies that are tied have to go by
     /// different schemes.

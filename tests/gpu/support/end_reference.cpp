@@ -206,17 +206,21 @@ EndReference::Outcome EndReference::end(double shortest) {
         for (glm::dvec4& v : to.velocities)
             if (to.positions[static_cast<std::size_t>(&v - to.velocities.data())].w != 0.0)
                 v = glm::dvec4(0.0, 0.0, 0.0, v.w);
+        scheme.end(from, to);
     } else {
         energy.settle(islands, to);
         rows.remember();
+        scheme.end(from, to);
         const double gravity = glm::length(glm::dvec3(model->gravity));
-        if (restitution.run({step_size, 2.0 * tuning::kRestingFall * gravity, system.rows,
-                             system.displacements, from, energy.before(), energy.after()},
-                            system.rigid, to, paces.struck()))
+        if (restitution.run({step_size, 2.0 * tuning::kFrame * gravity, system.rows, system.displacements,
+                             from, energy.before(), energy.after()},
+                            system.rigid, to)) {
             energy.change();
+            has_bounced = true;
+        }
+        std::fill(paces.struck().begin(), paces.struck().end(), std::uint8_t(0));
         for (const std::uint32_t o : stopped) paces.struck()[o] = 1;
     }
-    scheme.end(from, to);
     from = to;
     return stands_still ? Outcome::stood_still : Outcome::made;
 }

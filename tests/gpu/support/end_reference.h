@@ -52,7 +52,7 @@ public:
     cpu::Guard<double> guard;
     cpu::Islands islands;
     double step_size = 0.0, gained = 0.0;
-    bool has_past = false, is_guarded = false;
+    bool has_past = false, is_guarded = false, has_bounced = false;
     bool is_apart = false;            ///< no object touches another in the next solve
     std::vector<glm::dvec4> guarded;  ///< where the guard has moved nodes; w: -1 where it has not
 

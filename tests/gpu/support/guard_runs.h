@@ -30,7 +30,7 @@ struct Guarded {
     std::vector<glm::dvec4> ends, path_ends;
     bool is_changed = false, is_given_up = false;
     std::size_t clipped = 0;  ///< of the first run
-    int runs = 0;
+    std::uint32_t runs = 0;
     StepClock clock{};  ///< on the device
 };
 

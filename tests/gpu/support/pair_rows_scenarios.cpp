@@ -202,8 +202,9 @@ double memory_error(const StartCase& at) {
     StartErrors errors;
     errors.require(gpu.pair_rows->memory().entries.empty());
     for (std::uint32_t made = 1; made <= 2; ++made) {
-        changes.upload(std::vector<BodyChange>(
-            model.objects.size(), {glm::vec4(0.0f), glm::vec4(0.0f), glm::vec4(0.0f), 3 - made, 0, 0, 0}));
+        BodyChange change{};
+        change.action = 3 - made;
+        changes.upload(std::vector<BodyChange>(model.objects.size(), change));
         gpu.pair_rows->remember(changes);
         errors.require(gpu.pair_rows->memory().entries.empty() == (made == 1));
     }

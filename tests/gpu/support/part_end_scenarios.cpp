@@ -185,14 +185,14 @@ Scenarios island_scenarios() {
                 .model = meeting_blocks(stiff, {.velocity = {0.0, 1.0, 0.0}, .youngs_modulus = 1e8}),
                 .parts = parts(14),
                 .restitution = restitution,
-                .is_struck = true,
+                .bounces = true,
                 .island = 2};
         });
     add("several_bounce", [] {
         return EndCase{.model = several_stiff_blocks(),
                        .parts = parts(14),
                        .restitution = 0.5,
-                       .is_struck = true,
+                       .bounces = true,
                        .contacts = true,
                        .island = 3};
     });
@@ -200,7 +200,7 @@ Scenarios island_scenarios() {
         return EndCase{.model = on_a_surface({0.2f, 0.4f, 0.1f}, {}, 1e8),
                        .parts = parts(14),
                        .restitution = 0.6,
-                       .is_struck = true,
+                       .bounces = true,
                        .island = 2};
     });
     add("an_island_is_guarded_and_stopped", [] {
@@ -249,7 +249,7 @@ Scenarios part_end_scenarios() {
     for (const double restitution : {0.5, 1.0})
         add(restitution < 1.0 ? "bounces" : "bounces_in_full", [=] {
             const Block stiff{.place = {0, 0.004, 0}, .velocity = {0.3, -2.0, 0.1}, .youngs_modulus = 1e8};
-            return EndCase{two_blocks(stiff, restitution), parts(14), 0.0, false, {}, true};
+            return EndCase{.model = two_blocks(stiff, restitution), .parts = parts(14), .bounces = true};
         });
     add("is_guarded", [=] {
         std::vector<PartChange> changes = parts(4);
