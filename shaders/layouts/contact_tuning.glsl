@@ -44,8 +44,8 @@ COUNT kPartsOfMoving = 4u, kPartsOfCalm = 2u, kPartsOfStill = 1u;
 // And at most, where bodies meet fast.
 COUNT kMostParts = 256u;
 // What is left of fast vibrations in a part, with their sign reversed: (1 - alpha) / (1 + alpha). Slow ones are damped by less the
-// nearer it is to 1. From 0.6 to 2/3 most of scene B is left; 0.35 and 0.85 leave less. *
-REAL kLeftOfFast = 2.0 / 3.0;
+// nearer it is to 1. 0.5 and 0.85 leave less of scene B. *
+REAL kLeftOfFast = 0.7;
 
 // The law of contacts. Lengths are parts of the reach.
 
