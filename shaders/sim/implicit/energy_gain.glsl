@@ -49,7 +49,7 @@ double[kIslandSums] gain_of(double sums[kGainSums], bool is_held) {
         gained -= more;
         motions = max(motions - whole, 0.0LF);
     }
-    double slack = sums[kSlack] + double(kHardly) * motions;
+    double slack = sums[kSlack] + double(kSlackOfEnergy) * motions;
     double beyond = max(gained - slack, 0.0LF) - vibrations;
     double island[kIslandSums];
     island[kIslandOwed] = owed;

@@ -54,7 +54,7 @@ bool measure(bool is_edges, mat4x3 x, inout vec3 normal, inout float rounding) {
 
 // What has to be left of a gap, both less rounding [m].
 float least_gap(GuardedPair pair, float gap) {
-    return min(kLeastOfReach * pair.reach, max(kLeastOfGap * gap, kRoundings * pair.rounding));
+    return min(kLeastOfReach * pair.reach, max(kLeastOfGap * gap, kLeastOfRounding * pair.rounding));
 }
 
 // Piece by piece: from each place on the way goes on as far as the direction there, or that at the end, separates.
@@ -119,10 +119,10 @@ void clip(uint p, GuardedPair pair, mat4x3 from) {
         }
     }
     float gap = bottom - top - pair.rounding, room = gap - least_gap(pair, gap);
-    float usable = (room > 0.0 ? (1.0 - kSlightly) : 1.0) * room - approach, share = 0.5;
+    float usable = (room > 0.0 ? kUsable : 1.0) * room - approach, share = 0.5;
     if (first + second > 0.0) {
         share = first / (first + second);
-        if (first > 0.0 && second > 0.0) share = clamp(share, kSlightly, 1.0 - kSlightly);
+        if (first > 0.0 && second > 0.0) share = clamp(share, kLeastShare, 1.0 - kLeastShare);
     }
     for (uint k = 0u; k < 4u; ++k) {
         uint n = pair.nodes[k];

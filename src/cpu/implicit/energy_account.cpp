@@ -210,7 +210,7 @@ double EnergyAccount<Real>::measure(const Step& step) {
             gained[i] -= gain;
             motions[i] = std::max(motions[i] - before, 0.0);
         }
-        slacks[i] += tuning::kHardly * motions[i];
+        slacks[i] += tuning::kSlackOfEnergy * motions[i];
     }
     for (std::size_t i = 0; i < bodies; ++i) {
         dues_[i] = std::max(owed_[i] - slacks[i], 0.0);

@@ -142,7 +142,7 @@ void FindPairs<Real>::find_own(const Paths<Real>& paths) {
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         owns_[o] = {};
         if (!kept_.is_convex(o) || is_still_[o] != 0) continue;
-        add_lost(o, kept_.find_lost_tets(o, static_cast<Real>(tuning::kNearly), paths.from, paths.to));
+        add_lost(o, kept_.find_lost_tets(o, static_cast<Real>(tuning::kKept), paths.from, paths.to));
         owns_[o].listed = owns_[o].boxes.size();
     }
 }
@@ -152,7 +152,7 @@ bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
     bool any = false;
     for (std::uint32_t o = 0; finds_own_ && o < model_->body_count(); ++o) {
         if (!kept_.is_convex(o) || is_still_[o] != 0) continue;
-        add_lost(o, kept_.find_more_lost(o, static_cast<Real>(tuning::kNearly), owns_[o].lost, ends));
+        add_lost(o, kept_.find_more_lost(o, static_cast<Real>(tuning::kKept), owns_[o].lost, ends));
         any = any || owns_[o].boxes.size() > owns_[o].listed;
     }
     return any;

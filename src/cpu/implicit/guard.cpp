@@ -20,7 +20,7 @@ template <class Real>
 Real least_gap(const NearPair<Real>& near, Real gap) {
     return std::min(static_cast<Real>(tuning::kLeastOfReach) * static_cast<Real>(near.pair.reach),
                     std::max(static_cast<Real>(tuning::kLeastOfGap) * gap,
-                             static_cast<Real>(tuning::kRoundings) * near.rounding));
+                             static_cast<Real>(tuning::kLeastOfRounding) * near.rounding));
 }
 
 }  // namespace
@@ -202,14 +202,13 @@ void Guard<Real>::clip(const NearPair<Real>& near, const Paths<Real>& paths,
     }
     const Real gap = (bottom - top) - near.rounding;
     const Real room = gap - least_gap(near, gap);
-    const Real usable =
-        (room > Real(0) ? static_cast<Real>((1.0 - tuning::kSlightly)) : Real(1)) * room - approach;
+    const Real usable = (room > Real(0) ? static_cast<Real>(tuning::kUsable) : Real(1)) * room - approach;
     Real share = Real(0.5);
     if (first + second > Real(0)) {
         share = first / (first + second);
         if (first > Real(0) && second > Real(0))
-            share = std::clamp(share, static_cast<Real>(tuning::kSlightly),
-                               Real(1) - static_cast<Real>(tuning::kSlightly));
+            share = std::clamp(share, static_cast<Real>(tuning::kLeastShare),
+                               Real(1) - static_cast<Real>(tuning::kLeastShare));
     }
     for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t node = pair.nodes[k];
@@ -269,7 +268,7 @@ void Guard<Real>::place_body(std::uint32_t object, const Paths<Real>& paths, std
             });
         }
     };
-    for (std::uint32_t k = 0; k < tuning::kMostRounds; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kProjections; ++k) {
         bool is_outside = false;
         glm::dvec3 force(0.0), moment(0.0);
         double most = 0.0;
@@ -294,7 +293,7 @@ void Guard<Real>::place_body(std::uint32_t object, const Paths<Real>& paths, std
             shorter = std::min(shorter, 0.99 * std::max(room, 0.0) / along);
         });
         if (shorter == 1.0) break;
-        part *= k < tuning::kMostRounds ? shorter : 0.0;
+        part *= k < tuning::kProjections ? shorter : 0.0;
     }
     const glm::dmat3 turn = rotation_about(part * w);
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
@@ -308,7 +307,7 @@ template <class Real>
 void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
     Vec3<Real> d = wanted_[node];
     const Real tiny = Real(1e-6) * glm::length(d);
-    for (std::uint32_t k = 0; k < tuning::kMostRounds; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kProjections; ++k) {
         bool is_outside = false;
         for_spaces(node, paths, [&](const HalfSpace& space) {
             const Real over = glm::dot(space.normal, d) - space.room;

@@ -192,7 +192,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
                 gained = gain();
             }
         }
-        if (!is_shortest && gained > tuning::kSlightly) {
+        if (!is_shortest && gained > tuning::kMostGain) {
             divide();
             continue;
         }
@@ -393,7 +393,7 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     });
     system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step, cavity_drives_);
     const double fall =
-        tuning::kHardly * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
+        tuning::kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
     const double rounding =
         tuning::kRoundings * static_cast<double>(std::numeric_limits<Real>::epsilon() / input.step);
     std::vector<double> energies(model_->body_count(), 0.0), of_islands = energies;
@@ -411,7 +411,8 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands_.of_bodies[o];
         const double share = model_->objects[o].mass / islands_.masses[island];
-        system_.enough[o] = tuning::kTolerance * (energies[o] + tuning::kNearly * share * of_islands[island]);
+        system_.enough[o] =
+            tuning::kTolerance * (energies[o] + tuning::kInIsland * share * of_islands[island]);
     }
     // A hand pulls like inertia does, to a place of its own.
     if (input.pulls != nullptr)
@@ -474,7 +475,7 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, const std::vector<Ve
     blocked_.clear();
     bool has_changed = false;
     std::size_t checked = 0;
-    for (std::uint32_t k = 0; k < tuning::kMostRounds; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kMostGuards; ++k) {
         const std::vector<std::uint32_t> strays =
             guard_.run(paths, pairs_.pairs(), compliances_, current.positions, blocked_, checked);
         if (attachments_.block_held(current.positions, surface_->thicknesses, blocked_)) {

@@ -197,7 +197,7 @@ EndReference::Outcome EndReference::end(double shortest) {
             gained = measure();
         }
     }
-    if (!is_shortest && gained > tuning::kSlightly) return Outcome::divided;
+    if (!is_shortest && gained > tuning::kMostGain) return Outcome::divided;
     const bool stands_still = !std::isfinite(gained);
     if (stands_still) {
         to = from;

@@ -87,7 +87,7 @@ public:
 private:
     void add_lost(std::uint32_t body) {
         cpu::KeptDistances<double> kept(case_.model, *surface_);
-        for (const cpu::LostTets& tets : kept.find_lost_tets(body, tuning::kNearly, from_, to_))
+        for (const cpu::LostTets& tets : kept.find_lost_tets(body, tuning::kKept, from_, to_))
             lost_[body].add(kept.box_of(body, tets));
     }
     bool is_listed(const cpu::ContactPair& pair, double band) const {
