@@ -185,8 +185,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             }
             gained = gain();
             // What is blocked has pushed as if it was not.
-            const bool any_waits =
-                any_moves(previous, [&](std::uint32_t o) { return o < blocked_.size() && blocked_[o] != 0; });
+            const bool any_waits = any_moves(previous, [&](std::uint32_t o) { return blocked_[o] != 0; });
             if (gained > 0.0 || any_waits) {
                 stopped = stop_guarded(before_guard, current);
                 gained = gain();
