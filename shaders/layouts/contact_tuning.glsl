@@ -1,10 +1,30 @@
 // Compiled twice: as GLSL and as C++ (src/model/shared_constants.h, which has doubles).
 // All numbers of contact and the implicit step that are chosen and not derived. Each with its unit, why it is there, and what was
-// measured with others; a range that nothing is said of was not searched.
+// measured with others. Half and twice as much of any but those marked with * change kinetic energies of scenes A and B of
+// bench/peers by less than 2% (docs/decisions/0090-fewer-constants.md).
 #ifndef __cplusplus
 #define REAL const float
 #define COUNT const uint
 #endif
+
+// What is less than this part of something: nearly all is left of it or found; it hardly counts; and in between.
+//
+// Nearly: bodies are in balance when what is left of all forces on them is so little of what presses them, and the limits of friction
+// are found anew. A step along a direction is short enough when the slope at its end is so much of that at its start, if it has turned.
+// An impact is over when so much of the approach is left, and when it would not change more if it took as long again. Of the energy of
+// an island a body's share counts so much in what conjugate gradients may miss. Bodies that are convex at the start and keep so much
+// of all distances do not meet themselves: nearer parts would press from half of their distance at rest on, but so far elements resist
+// more than contacts.
+REAL kNearly = 0.1;
+// Slightly: so much of what it lacks at first may be left of a linearised system; an island may gain so much of its energy in a part,
+// else the part is halved (with a tenth bars that fold gained energy from part to part); of a gap each side uses that at least, and
+// both leave that when they are clipped (with all of it rounding stops bodies at a box for good: `ColliderSurfaces.StopBodies`).
+REAL kSlightly = 0.05;
+// Hardly: bodies are in balance; motion is what gravity adds in a part, times this, at least; a contact that is found too near presses
+// from so much of its reach at least; a nearest point is on an edge that it is nearer to than so much of the gap (by rounding, where
+// flat faces meet, both would press a node, or none); twice so much of an island's energy is owed and not taken, as energies go to and
+// fro.
+REAL kHardly = 1e-3;
 
 // Time.
 
@@ -12,37 +32,33 @@
 // give nothing back. Motors cover what is left to their position in this time. Bodies come to rest that vibrate, and go to and fro,
 // more slowly than after a fall of this time; what meets more slowly than after twice of it does not bounce.
 REAL kFrame = 1.0 / 60.0;
-// Elements and contacts of bodies that hardly move have at least this damping time [s]: towers sway on without it.
-REAL kRestingTime = 0.1;
+// What takes longer is no impact [s]. What lies in a plane at first is pushed out over this time. Elements and contacts of bodies that
+// hardly move have at least this damping time: towers sway on without it.
+REAL kImpactTime = 0.1;
 // Nodes that have kept to their places for so long rest [s]. Whatever swings that slowly moves farther.
 REAL kSleepTime = 0.5;
 // A place, as a part of the thickness of the body's surface: a 2000th of its median edge.
 REAL kSleepPlace = 0.01;
 // Into how many parts a step is divided at least, where bodies that touch others move, are calm, are still. Scene B keeps 67.6 J of
-// 71.3 with four parts, 66.8 with three, 63.9 with two.
+// 71.3 with four parts, 66.8 with three, 63.9 with two. *
 COUNT kPartsOfMoving = 4u, kPartsOfCalm = 2u, kPartsOfStill = 1u;
 // And at most, where bodies meet fast.
 COUNT kMostParts = 256u;
 // What is left of fast vibrations in a part, with their sign reversed: (1 - alpha) / (1 + alpha). Slow ones are damped by less the
-// nearer it is to 1. 0.5 and 0.85 leave less of scene B.
+// nearer it is to 1. 0.5 and 0.85 leave less of scene B. *
 REAL kLeftOfFast = 0.7;
 
 // The law of contacts. Lengths are parts of the reach.
 
 // From here inwards the force is linear: with the barrier to a ten-thousandth stiff cubes at 10 m/s ended in values that are not
-// finite.
+// finite. A chord of the law goes no nearer than to this part of the gap at the start. *
 REAL kLinearGap = 0.1;
-// A chord of the law goes no nearer than to this part of the gap at the start.
-REAL kChordGap = 0.25;
-// A contact that is found nearer than its reach presses from there, but from this part of it at least; the reach grows to all of it
-// within a time [s].
-REAL kLeastReach = 1e-3, kEasing = 1.0 / 3.0;
-// What lies in a plane at first is pushed out as fast as it is deep, over this time [s].
-REAL kPushing = 0.1;
+// Reaches that begin smaller grow to all within a time [s].
+REAL kEasing = 1.0 / 3.0;
 // Parts of one body press from this part of their distance at rest on, if that is less than the reach.
 REAL kOfRestGap = 0.5;
-// And have no row with a gap of more than so many of these reaches, at the start and as expected: at rest they are two apart.
-REAL kIdleGap = 1.5;
+// And have no row with a gap of more than so many of these reaches, at the start and as expected: half-way to where they are at rest.
+REAL kIdleGap = 0.5 + 0.5 / kOfRestGap;
 // Ties of attachments are so many times as stiff as what they tie together.
 REAL kTied = 300.0;
 // And those of rigid bodies, which nothing else yields at.
@@ -50,18 +66,12 @@ REAL kRigidTied = 1000.0;
 // Edges that a neighbour of the face beside them hides from the line by a cosine of this press half as much as edges without. With
 // 0.05 a block on a slope of faces is slowed by more than friction.
 REAL kSoftened = 0.04;
-// A nearest point on a face that is nearer to an edge of it than this part of the gap is on that edge, and what is nearer by less
-// is not: by rounding, where flat faces meet, both would press a node, or none.
-REAL kOnEdge = 2e-3;
 
 // Detection.
 
 // Nodes may end this far from where they are expected, in thicknesses of the body's surface. With 0.3 the guard finds more pairs
 // anew than detection saves; so it does where the slack grows with displacements.
 REAL kPathSlack = 0.5;
-// Bodies that are convex at the start and keep this part of all distances do not meet themselves. Nearer parts would press from
-// half of their distance at rest on, but so far elements resist more than contacts.
-REAL kKept = 0.1;
 // A part is halved in which contacts would come into each other by so many reaches: by two edges of the surface. With one edge
 // frames of three stacked balls took up to 200 ms for it.
 REAL kDeepest = 20.0;
@@ -73,25 +83,18 @@ REAL kMostTurn = 1.0;
 
 // The solve.
 
-// A body is nearly in balance where what is left of all forces on it is this part of what presses it: then the limits of friction
-// are found anew. It is in balance below the second.
-REAL kNearBalance = 0.1, kBalance = 1e-3;
-// A step along a direction is shortened where the slope has turned by more than this part of that at its start.
-REAL kTurned = 0.1;
-// Rounds of the rigid level, and halvings of a step along a direction, at most: these end by themselves.
+// Rounds that end by themselves, at most: of the rigid level, of halvings of a step along a direction, of projections of a node on
+// its half spaces, of detections of a part for its guard alone.
 COUNT kMostRounds = 20u;
 // Each round of the rigid level is solved until it lacks this part of the energy that it lacked at first, in so many iterations at
 // most.
 REAL kRigidForcing = 1e-8;
 COUNT kMostRigidIterations = 200u;
-// Linearisations of contacts in a part, at most. Each is solved until it lacks this part of the energy that it lacked at first.
+// Linearisations of contacts in a part, at most. *
 COUNT kMostLinearisations = 4u;
-REAL kForcing = 0.05;
-// Conjugate gradients miss at most this part of the energy of motion. With 1e-3 two balls keep 2 J less of 68.
-REAL kTolerance = 1e-4;
-// Of that motion is, at least: this part of what gravity adds in a part; this part of a body's share of its island's energy; and so
-// many times what rounding makes of positions.
-REAL kAtRest = 0.001, kInIsland = 0.1, kRoundings = 2.0;
+// Conjugate gradients miss at most this part of the energy of motion. With 1e-3 two balls keep 2 J less of 68. So many times what
+// rounding makes of positions is motion, too: with 8 what presses a ball differs by 0.13% from what holds it (`HertzLong`).
+REAL kTolerance = 1e-4, kRoundings = 2.0;
 
 // The guard.
 
@@ -100,32 +103,12 @@ REAL kLeastOfReach = 0.02, kLeastOfGap = 0.9;
 // But no less than so many times what rounding makes of it: what comes nearer, step by step, or by rounding of what a frame adds,
 // is moved apart again.
 REAL kLeastOfRounding = 8.0;
-// Of the rest, clipped pairs use this part: with all of it rounding stops bodies at a box for good (`ColliderSurfaces.StopBodies`).
-REAL kUsable = 0.95;
-// A side of a pair uses at least this part of the gap, if it yields at all.
-REAL kLeastShare = 0.05;
 // The shortest piece of a motion that is checked by itself. With whole motions 250 to 390 pairs a frame were clipped where soft
 // balls roll on each other, with these a tenth.
 REAL kShortestPiece = 1.0 / 16.0;
-// A node is projected on its half spaces so often before it is shortened.
-COUNT kProjections = 12u;
-// Detections of a part for its guard alone, at most.
-COUNT kMostGuards = 10u;
 
-// Energy and restitution.
-
-// Rounding of energies, as a part of them, and for bodies at rest [J].
-REAL kEnergyRounding = 1e-7, kLeastEnergy = 1e-9;
-// What is owed up to this part of an island's energy is not taken: energies go to and fro.
-REAL kSlackOfEnergy = 0.002;
-// A part that gains an island this part of its energy was too long for its linearisation, and is halved. With a tenth bars that
-// fold gained energy from part to part.
-REAL kMostGain = 0.05;
-// An impact is over when what is left of the approach, and what it would still change if it took as long again, are this part of
-// the approach.
-REAL kLeftOfApproach = 0.1;
-// What takes longer is softness [s].
-REAL kLongestImpact = 0.1;
+// Rounding of energies, as a part of them.
+REAL kEnergyRounding = 1e-7;
 
 // The device.
 

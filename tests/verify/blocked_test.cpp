@@ -86,5 +86,27 @@ TEST(Blocked, ADrumThatTurnsDoesNotThrowWhatIsInIt) {
     EXPECT_LT(glm::length(run.center(0)), 0.9);
 }
 
+// Two plates close on it, wait, and would go up by 0.8 m.
+TEST(Blocked, PlatesThatWaitCarryNothing) {
+    Scene scene = rigid_scene(0.8);
+    scene.objects = {rigid_box("box", {0.4, 0.4, 0.4}, {0.0, 0.2025, 0.0})};
+    scene.colliders = {floor_at_zero()};
+    for (const double side : {-1.0, 1.0}) {
+        ColliderDescription plate;
+        plate.shape = BoxShape{{0.1, 0.6, 0.6}};
+        plate.position = {0.28 * side, 0.35, 0.0};
+        plate.keyframes = {{0.0}, {1.0, {-0.05 * side, 0.0, 0.0}}, {2.0, {-0.05 * side, 0.8, 0.0}}};
+        scene.colliders.push_back(plate);
+    }
+    MeasuredRun run(scene);
+    run.advance(2.5);
+    const std::uint32_t plate = run.model().objects[1].nodes.first;
+    const double start = static_cast<double>(run.model().positions[plate].y),
+                 end = static_cast<double>(run.simulator().positions()[plate].y);
+    EXPECT_LT(end - start, 0.05);
+    EXPECT_LT(run.center(0).y - 0.2025, end - start);
+    EXPECT_EQ(run.overlaps(), 0u);
+}
+
 }  // namespace
 }  // namespace gelatin::blocked_test

@@ -142,5 +142,24 @@ TEST_F(StiffBodiesTest, BarsFallAndRest) {
     }
 }
 
+// Half a millimetre and a millimetre across: their whole fall is less than 2e-9 J.
+TEST_F(StiffBodiesTest, SmallBallsComeToRest) {
+    for (const double radius : {0.00025, 0.0005}) {
+        Scene small = scene(1e6, 0.0);
+        add_plane({0.0, 1.0, 0.0}, 0.0, 0.5, small);
+        ObjectDescription& ball = small.objects.emplace_back();
+        ball.name = "ball";
+        ball.shape = SphereShape{.radius = radius, .frequency = 4};
+        ball.material = "stiff";
+        ball.position = {0.0, 1.6 * radius, 0.0};
+        ball.rotation = {0.0, 10.0, 20.0};
+        Simulator simulator(small, on(Backend::cpu));
+        const std::vector<double> energies = energies_of(simulator, 120);
+        EXPECT_LE(*std::max_element(energies.begin(), energies.end()), 1.01 * energies[0]) << radius;
+        simulator.begin_statistics();
+        EXPECT_EQ(simulator.take_statistics().kinetic_energy, 0.0) << radius;  // asleep
+    }
+}
+
 }  // namespace
 }  // namespace gelatin::stiff_bodies_test

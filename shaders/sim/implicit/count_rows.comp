@@ -23,9 +23,9 @@ void main() {
             vec4 surface = distance_to_collider(c, texelFetch(positions, int(n)).xyz);
             bool is_known = memory.reach > 0.0;
             if (is_known)
-                note.ease = memory.ease * max(0.0, 1.0 - step / kPushing);
+                note.ease = memory.ease * max(0.0, 1.0 - step / kImpactTime);
             else if (surface.w <= 0.0)
-                note.ease = kLeastReach * thickness - surface.w;
+                note.ease = kHardly * thickness - surface.w;
             float motion = dot(surface.xyz, expected.xyz), gap = surface.w + note.ease, there = gap + motion;
             if (expected.w > 0.0 && surface.w + min(0.0, motion) <= (1.0 + kPathSlack) * thickness) {
                 note.reach = thickness;

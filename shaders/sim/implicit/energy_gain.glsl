@@ -27,7 +27,7 @@ void add_gain(uint o, BodyPace pace, BodyEnergy before, inout double sums[kGainS
     sums[kMasses] += double(pace.velocity.w);
     sums[kOwed] += before.debt + gained - before.contacts;
     sums[kGained] += gained - part_sum(o, kContactsAtStart);
-    sums[kSlack] += double(kLeastEnergy) + double(kEnergyRounding) * (motions + abs(potential));
+    sums[kSlack] += double(kEnergyRounding) * (motions + abs(potential));
     sums[kMotionsBefore] += motions_before;
     for (uint k = 0u; k < 3u; ++k) {
         sums[kMomenta + k] += energy_sum(o, kMomentum + k);
@@ -49,7 +49,7 @@ double[kIslandSums] gain_of(double sums[kGainSums], bool is_held) {
         gained -= more;
         motions = max(motions - whole, 0.0LF);
     }
-    double slack = sums[kSlack] + double(kSlackOfEnergy) * motions;
+    double slack = sums[kSlack] + double(2.0 * kHardly) * motions;
     double beyond = max(gained - slack, 0.0LF) - vibrations;
     double island[kIslandSums];
     island[kIslandOwed] = owed;

@@ -56,7 +56,7 @@ float weight_of_edges(NearPair near, vec3 toward) {
 }
 
 // Whether what is that way from the nearest point is not nearer.
-bool leads_away(vec3 toward, vec3 way) { return dot(toward, way) >= -kOnEdge * length(way); }
+bool leads_away(vec3 toward, vec3 way) { return dot(toward, way) >= -kHardly * length(way); }
 
 // @param k the edge of the face from corner k to k + 1
 bool presses_edge(NearPair near, vec3 toward, uint k) {
@@ -82,7 +82,7 @@ bool presses_corner(NearPair near, vec3 toward, uint k) {
 bool presses_face(NearPair near, vec3 toward) {
     vec3 a = at(near.node_1), b = at(near.node_2), c = at(near.node_3), normal = cross(b - a, c - a);
     vec3 edges = vec3(distance(b, c), distance(c, a), distance(a, b));
-    bvec3 is_off = lessThanEqual(near.weights.yzw * length(normal), kOnEdge * near.normal.w * edges);
+    bvec3 is_off = lessThanEqual(near.weights.yzw * length(normal), kHardly * near.normal.w * edges);
     uint count = uint(is_off.x) + uint(is_off.y) + uint(is_off.z);
     if (count == 0u) return true;
     if (count == 1u) return presses_edge(near, toward, is_off.z ? 0u : is_off.x ? 1u : 2u);

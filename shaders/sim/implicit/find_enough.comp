@@ -28,5 +28,5 @@ void main() {
     for (uint k = island.z + lane; k < island.w; k += kLanes) sums.y += energies[texelFetch(island_chunks, int(k)).x];
     for (uint k = island.x + lane; k < island.y; k += kLanes) sums.z += mass_of(texelFetch(island_bodies, int(k)).x);
     sums = sum_over_group(sums);
-    if (lane == 0u) enough[o] = kTolerance * (sums.x + kInIsland * mass_of(o) / sums.z * sums.y);
+    if (lane == 0u) enough[o] = kTolerance * (sums.x + kNearly * mass_of(o) / sums.z * sums.y);
 }

@@ -31,7 +31,7 @@ bool keeps(samplerBuffer at, uvec4 tet, mat3 inverse_, mat3 rotation) {
     vec3 a = texelFetch(at, int(tet.x)).xyz;
     mat3 f = mat3(texelFetch(at, int(tet.y)).xyz - a, texelFetch(at, int(tet.z)).xyz - a, texelFetch(at, int(tet.w)).xyz - a);
     mat3 m = transpose(rotation) * (f * inverse_);
-    float xx = m[0].x - kKept, yy = m[1].y - kKept, zz = m[2].z - kKept;
+    float xx = m[0].x - kNearly, yy = m[1].y - kNearly, zz = m[2].z - kNearly;
     float xy = 0.5 * (m[0].y + m[1].x), yz = 0.5 * (m[1].z + m[2].y), zx = 0.5 * (m[2].x + m[0].z);
     float second = xx * yy - xy * xy;
     float third = zz * second - (xx * yz * yz + yy * zx * zx - 2.0 * xy * yz * zx);

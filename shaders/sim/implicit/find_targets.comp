@@ -44,7 +44,7 @@ void main() {
         damping = pace.y;
         motion = texelFetch(paces, 5 * int(chunk.x) + 2).xyz;
     }
-    float fall = kAtRest * clock[0].step * length(gravity), rounding = kRoundings * 1.1920929e-7 / clock[0].step;
+    float fall = kHardly * clock[0].step * length(gravity), rounding = kRoundings * 1.1920929e-7 / clock[0].step;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += kLanes) {
         vec4 x = texelFetch(positions, int(n)), v = texelFetch(velocities, int(n));
         vec4 wanted = vec4(texelFetch(predicted, int(n)).xyz, 0.0);

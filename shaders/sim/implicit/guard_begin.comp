@@ -1,6 +1,7 @@
 // Where the guard of pairs begins: where nodes are wanted, and by chunk what they have in common; a work group a chunk.
 // CPU twin: gelatin::cpu::Guard::find_frames. Parity: tests/gpu/implicit/pair_guard_test.cpp.
-const uint kSums = 5u;
+const uint kSums = 10u;  // of free nodes, and from kOfHeld on of held ones: weight, weight times displacement, and its square
+const uint kOfHeld = 5u;
 #define WRITES_DISPATCHES
 #include "layouts/tries.glsl"
 #include "sim/collision/dispatches.glsl"
@@ -15,7 +16,7 @@ layout(std430) readonly buffer Counts { PairCounts counts[]; };
 layout(std430) buffer EndPositions { vec4 end_positions[]; };
 layout(std430) writeonly buffer Wanted { vec4 wanted_positions[]; };
 layout(std430) writeonly buffer Clips { NodeClips node_clips[]; };
-layout(std430) writeonly buffer FrameSums { double frame_sums[]; };  // by chunk: mass, mass times displacement, held nodes
+layout(std430) writeonly buffer FrameSums { double frame_sums[]; };  // by chunk
 layout(std430) buffer Guard { GuardState guard[]; };
 
 // Nothing is dispatched yet, but for the first round's pairs; `count` has the groups of a row for those who do.
@@ -39,7 +40,8 @@ void main() {
     if (c >= chunk_count) return;
     if (c == 0u && lane == 0u) begin();
     uvec4 chunk = texelFetch(chunks, int(c));
-    double sums[kSums] = double[](0.0LF, 0.0LF, 0.0LF, 0.0LF, 0.0LF);
+    double sums[kSums];
+    for (uint k = 0u; k < kSums; ++k) sums[k] = 0.0LF;
     for (uint n = chunk.y + lane; n < chunk.y + chunk.z; n += 64u) {
         vec4 end = end_positions[n];
         vec3 from = start_of(n);
@@ -49,14 +51,13 @@ void main() {
         }
         wanted_positions[n] = end;
         node_clips[n] = NodeClips(0u, kNone);
-        if (end.w == 0.0) {
-            sums[4] += 1.0LF;
-            continue;
-        }
-        double mass = 1.0LF / double(end.w);
-        dvec3 moved = mass * dvec3(end.xyz - from);
-        sums[0] += mass;
-        for (int k = 0; k < 3; ++k) sums[1 + k] += moved[k];
+        bool is_held = end.w == 0.0;
+        uint first = is_held ? kOfHeld : 0u;
+        double weight = is_held ? 1.0LF : 1.0LF / double(end.w);
+        dvec3 moved = dvec3(end.xyz - from);
+        sums[first] += weight;
+        for (uint k = 0u; k < 3u; ++k) sums[first + 1u + k] += weight * moved[k];
+        sums[first + 4u] += weight * dot(moved, moved);
     }
     for (uint k = 0u; k < kSums; ++k) put_sum(k, sums[k]);
     barrier();

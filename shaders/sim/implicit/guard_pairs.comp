@@ -102,11 +102,12 @@ void add(uint n, uint clip, vec4 space) {
 void clip(uint p, GuardedPair pair, mat4x3 from) {
     float top = 0.0, bottom = kInfinity, first = 0.0, second = 0.0;
     float approach = 0.0;  // of nodes that do not yield
+    vec3 frame = frame_of(pair.object);
     vec4 weights = uintBitsToFloat(texelFetch(near_pairs, 5 * int(p) + 1));
     for (uint k = 0u; k < 4u; ++k) {
         uint n = pair.nodes[k];
         float height = dot(pair.normal, from[k] - from[0]);
-        float along = is_held(n) ? dot(pair.normal, end_of(n) - from[k]) : 0.0;
+        float along = is_held(n) ? dot(pair.normal, end_of(n) - from[k] - frame) : 0.0;
         float yields = weights[k] * weights[k] * texelFetch(predicted, int(n)).w;
         if (is_first(pair, k)) {
             top = max(top, height);
@@ -119,10 +120,10 @@ void clip(uint p, GuardedPair pair, mat4x3 from) {
         }
     }
     float gap = bottom - top - pair.rounding, room = gap - least_gap(pair, gap);
-    float usable = (room > 0.0 ? kUsable : 1.0) * room - approach, share = 0.5;
+    float usable = (room > 0.0 ? (1.0 - kSlightly) : 1.0) * room - approach, share = 0.5;
     if (first + second > 0.0) {
         share = first / (first + second);
-        if (first > 0.0 && second > 0.0) share = clamp(share, kLeastShare, 1.0 - kLeastShare);
+        if (first > 0.0 && second > 0.0) share = clamp(share, kSlightly, 1.0 - kSlightly);
     }
     for (uint k = 0u; k < 4u; ++k) {
         uint n = pair.nodes[k];

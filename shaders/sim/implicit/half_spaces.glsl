@@ -67,7 +67,7 @@ vec4 place(Guarded node, uint first) {
         any = is_near;
     }
     if (!any) return vec4(d, 0.0);
-    for (uint projection = 0u; projection < kProjections && is_outside; ++projection) {
+    for (uint projection = 0u; projection < kMostRounds && is_outside; ++projection) {
         is_outside = false;
         for (uint clip = first; clip != kNone; clip = next_clip(clip))
             if (project(half_space(clip), tiny, d)) is_outside = true;

@@ -77,8 +77,8 @@ void bounce(uint p, uint o, inout Impacting body) {
     }
     add_impulses(p, o, at, size);
     meetings[at + kMetTime] += size;
-    double left = double(kLeftOfApproach) * meetings[at + kMetSpeed], time = meetings[at + kMetTime];
-    bool is_over = !(meetings[at + kMetSpeed] > double(resting_speed) && time < double(kLongestImpact));
+    double left = double(kNearly) * meetings[at + kMetSpeed], time = meetings[at + kMetTime];
+    bool is_over = !(meetings[at + kMetSpeed] > double(resting_speed) && time < double(kImpactTime));
     if (!is_over && after >= -left * force && (after - before) * time <= left * force * size)
         is_over = strike(at, restitution, left, body);
     for (uint k = 0u; is_over && k < kMeeting; ++k) meetings[at + k] = 0.0LF;

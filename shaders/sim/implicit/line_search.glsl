@@ -30,7 +30,7 @@ float line_search(StepIsland island, float base, float curvature) {
             t = 1.0;
             continue;
         }
-        if (k == 1u ? there >= -kTurned * first : abs(there) <= kTurned * first) return t;
+        if (k == 1u ? there >= -kNearly * first : abs(there) <= kNearly * first) return t;
         if (there > 0.0)
             low = t;
         else

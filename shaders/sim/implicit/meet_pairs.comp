@@ -122,8 +122,8 @@ void add_press(uint at, double size) {
         meetings[at + kMetEnergy] = energy_of(objects_of(at), false);
     }
     meetings[at + kMetTime] += size;
-    double left = double(kLeftOfApproach) * meetings[at + kMetSpeed], time = meetings[at + kMetTime];
-    bool counts = meetings[at + kMetSpeed] > double(resting_speed) && time < double(kLongestImpact);
+    double left = double(kNearly) * meetings[at + kMetSpeed], time = meetings[at + kMetTime];
+    bool counts = meetings[at + kMetSpeed] > double(resting_speed) && time < double(kImpactTime);
     bool may_end = after >= -left * force && (after - before) * time <= left * force * size;
     meetings[at + kMetPress] = !counts ? kIsOver : may_end ? kMayEnd : kGoesOn;
 }
@@ -172,7 +172,7 @@ bool strike(uint at) {
         apart += (k == 0 ? -1.0LF : 1.0LF) * dot(normal, sides[k].velocity + cross(sides[k].spin, arm));
     }
     if (free_count == 0u) return true;  // what was free is held by now
-    if (!(apart > -double(kLeftOfApproach) * meetings[at + kMetSpeed])) return false;
+    if (!(apart > -double(kNearly) * meetings[at + kMetSpeed])) return false;
     double lacking = double(restitution_of(objects)) * meetings[at + kMetSpeed] - apart;
     // No more than they have lost: bodies may vibrate instead.
     double lost = max(meetings[at + kMetEnergy] - energy_of(objects, true), 0.0LF);

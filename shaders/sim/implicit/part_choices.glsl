@@ -33,4 +33,4 @@ bool has_past_scheme(StepClock now, uint pace, bool is_struck, bool touches, boo
 }
 
 // [s]
-float least_damping(bool goes_on, uint pace) { return !goes_on && pace == kStill ? kRestingTime : 0.0; }
+float least_damping(bool goes_on, uint pace) { return !goes_on && pace == kStill ? kImpactTime : 0.0; }

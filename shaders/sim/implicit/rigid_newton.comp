@@ -176,7 +176,7 @@ void balance(StepIsland island) {
         bool is_near = false;
         for (uint k = 0u; k < 2u; ++k) {
             find_forces(island);
-            bool is_done = is_balanced(island, is_near ? tolerance : kNearBalance);
+            bool is_done = is_balanced(island, is_near ? tolerance : kNearly);
             if (is_near && is_done && round_ > 0u) return;
             if (is_near || !is_done) break;
             set_limits(island);

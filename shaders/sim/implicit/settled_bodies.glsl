@@ -10,7 +10,7 @@ bool is_finite(float x) { return !isinf(x) && !isnan(x); }
 float shortest_part(StepClock now) { return now.size / float(kMostParts); }
 
 // One that has gained too much is made again, shorter, if it can be.
-bool is_made(StepClock now, float gained) { return now.step < 2.0 * shortest_part(now) || !(gained > kMostGain); }
+bool is_made(StepClock now, float gained) { return now.step < 2.0 * shortest_part(now) || !(gained > kSlightly); }
 
 double island_sum(uint o, uint k) { return island_sums[o * kIslandSums + k]; }
 

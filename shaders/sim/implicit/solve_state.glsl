@@ -12,7 +12,7 @@ SolveState first_state(SolveState state, vec2 total, bool has_rows) {
     // One iteration is made in any case: what elements exert counts, however short the part.
     bool is_needed = state.iterations == 0u || total.y > 0.0;
     bool is_done = state.is_over != 0u || !(total.x > 0.0) || !is_needed;
-    return SolveState(total.x, is_done ? 1u : 0u, 0u, state.iterations, 0u, has_rows ? kForcing * total.x : 0.0,
+    return SolveState(total.x, is_done ? 1u : 0u, 0u, state.iterations, 0u, has_rows ? kSlightly * total.x : 0.0,
                       state.is_over, 0u);
 }
 

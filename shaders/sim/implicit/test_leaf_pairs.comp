@@ -7,6 +7,9 @@
 #include "sim/collision/nearest_points.glsl"
 #include "sim/implicit/list_starts.glsl"
 #include "sim/implicit/path_boxes.glsl"
+#ifdef LIST
+#include "sim/implicit/clock.glsl"
+#endif
 layout(local_size_x = 64) in;
 
 uniform usamplerBuffer pair_slots;   // PairSlot
@@ -22,6 +25,7 @@ uniform usamplerBuffer faces;        // Face
 uniform usamplerBuffer hit_starts;  // by leaf pair
 uniform usamplerBuffer hit_sums;
 uniform usamplerBuffer hits;        // by invocation
+uniform samplerBuffer velocities;   // when the part begins [m/s]
 uniform uint pair_capacity;
 layout(std430) writeonly buffer NearPairs { NearPair near_pairs[]; };
 #else
@@ -100,12 +104,10 @@ Measured measure(Element element, uvec3 nodes) {
     return Measured(weights, gap > 0.0 ? apart / gap : vec3(0.0), gap);
 }
 
-// How far a direction separates both sides where paths end.
-float separation(Element element, uvec3 nodes, vec3 direction) {
-    vec3 origin = path_end(element.nodes.x);
-    float top = max(dot(direction, path_end(element.nodes.y) - origin), 0.0);
-    vec3 heights = vec3(dot(direction, path_end(nodes.x) - origin), dot(direction, path_end(nodes.y) - origin),
-                        dot(direction, path_end(nodes.z) - origin));
+// How far a direction separates both sides. @param of, to their nodes; of an edge an end twice
+float separation(mat2x3 of, mat3 to, vec3 direction) {
+    float top = max(dot(direction, of[1] - of[0]), 0.0);
+    vec3 heights = vec3(dot(direction, to[0] - of[0]), dot(direction, to[1] - of[0]), dot(direction, to[2] - of[0]));
     return min(heights.x, min(heights.y, heights.z)) - top;
 }
 
@@ -124,10 +126,41 @@ float rounding_of(Element element, uvec3 nodes, vec3 normal) {
     return kEpsilon * dot(abs(normal), 8.0 * extent + 4.0 * reach);
 }
 
+// Where a nearest point is on an edge of a face or at a corner, or edges are nearly parallel, and the pair goes on by more than half of
+// its gap: the line is as when it is shortest on this way. What passes a corner meets it beside, and not ahead. @param all the nodes of both sides
+Measured look_beside_way(Measured at, Element element, uvec3 nodes, uvec4 all, float reach) {
+    vec3 way = vec3(0.0);                                  // of the second side beside the first
+    vec3 edges[2] = vec3[](vec3(0.0), vec3(0.0));  // with a side's nearest point
+    uvec2 last = uvec2(kNone);
+    int count = 0;
+    for (int k = 0; k < 4; ++k) {
+        if (!(at.weights[k] > kHardly)) continue;
+        int side = k < (element.is_edge ? 2 : 1) ? 0 : 1;
+        way += (side == 0 ? -at.weights[k] : at.weights[k]) * clock[0].step * texelFetch(velocities, int(all[k])).xyz;
+        if (last[side] != kNone) edges[side] = position(all[k]) - position(last[side]);
+        last[side] = all[k];
+        ++count;
+    }
+    vec3 across = cross(edges[0], edges[1]);
+    bool is_parallel = dot(across, across) <= kNearly * dot(edges[0], edges[0]) * dot(edges[1], edges[1]);
+    if (count == 4 && !(element.is_edge && is_parallel)) return at;
+    vec3 edge = edges[0] == vec3(0.0) ? edges[1] : edges[0];
+    if (edge != vec3(0.0)) way -= dot(way, edge) / dot(edge, edge) * edge;
+    float square = dot(way, way), approach = -at.gap * dot(way, at.normal);
+    if (!(approach > 0.0) || !(4.0 * square > at.gap * at.gap)) return at;
+    vec3 apart = at.gap * at.normal + min(approach / square, 1.0) * way;
+    float size = length(apart), least = kLeastOfReach * reach;
+    if (!(size > least)) return at;
+    vec3 normal = apart / size;
+    float gap = separation(mat2x3(position(element.nodes.x), position(element.nodes.y)),
+                           mat3(position(nodes.x), position(nodes.y), position(nodes.z)), normal);
+    return gap > least ? Measured(at.weights, normal, gap) : at;
+}
+
 NearPair make_pair(LeafPair pair, Element element, uint second) {
     uvec3 nodes = nodes_of(element, second);
     uvec4 all = element.is_edge ? uvec4(element.nodes, nodes.xy) : uvec4(element.nodes.x, nodes);
-    Measured at = measure(element, nodes);
+    Measured at = look_beside_way(measure(element, nodes), element, nodes, all, reach_of(pair));
     return NearPair(all.x, all.y, all.z, all.w, at.weights, vec4(at.normal, at.gap), element.number, second,
                     element.is_edge ? 1u : 0u, pair.slot, pair.object, pair.other, reach_of(pair),
                     rounding_of(element, nodes, at.normal));
@@ -187,7 +220,8 @@ uint test_element(LeafPair pair, Element element, uint first) {
         uint k = uint(findLSB(candidates));
         uvec3 nodes = feature_nodes[first + k];
         Measured at = measure(element, nodes);
-        bool is_far = at.gap > wanted && separation(element, nodes, at.normal) > wanted;
+        bool is_far = at.gap > wanted && separation(mat2x3(path_end(element.nodes.x), path_end(element.nodes.y)),
+                                                       mat3(path_end(nodes.x), path_end(nodes.y), path_end(nodes.z)), at.normal) > wanted;
         near |= uint(!is_far) << k;
     }
     return near;

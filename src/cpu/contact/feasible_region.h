@@ -59,7 +59,7 @@ public:
 
 private:
     static constexpr Real kSoftened = static_cast<Real>(tuning::kSoftened);
-    static constexpr Real kOnEdge = static_cast<Real>(tuning::kOnEdge);
+    static constexpr Real kOnEdge = static_cast<Real>(tuning::kHardly);
 
     Vec3<Real> at(std::uint32_t node) const { return Vec3<Real>(positions_[node]); }
 

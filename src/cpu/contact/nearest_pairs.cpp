@@ -86,5 +86,23 @@ void measure_pairs(std::span<const ContactPair> pairs, std::span<const glm::dvec
     }
 }
 
+template <class Real>
+Real rounding_of_pair(const Vec3<Real>& direction, const ContactPair& pair,
+                      std::span<const Vec4<Real>> positions) {
+    Vec3<Real> nodes[4];
+    for (std::size_t k = 0; k < 4; ++k) nodes[k] = Vec3<Real>(positions[pair.nodes[k]]);
+    return rounding_along<Real>(direction, Real(1), nodes);
+}
+
+float rounding_along(const glm::vec3& direction, const ContactPair& pair,
+                     std::span<const glm::vec4> positions) {
+    return rounding_of_pair<float>(direction, pair, positions);
+}
+
+double rounding_along(const glm::dvec3& direction, const ContactPair& pair,
+                      std::span<const glm::dvec4> positions) {
+    return rounding_of_pair<double>(direction, pair, positions);
+}
+
 }  // namespace gelatin::cpu
 #endif

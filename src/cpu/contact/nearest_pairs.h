@@ -30,6 +30,12 @@ void measure_pairs(std::span<const ContactPair> pairs, std::span<const glm::vec4
 void measure_pairs(std::span<const ContactPair> pairs, std::span<const glm::dvec4> positions,
                    MeasuredPairs<double>& measured);
 
+/// Bound of what rounding makes of a difference of the nodes' heights along a direction [m].
+float rounding_along(const glm::vec3& direction, const ContactPair& pair,
+                     std::span<const glm::vec4> positions);
+double rounding_along(const glm::dvec3& direction, const ContactPair& pair,
+                      std::span<const glm::dvec4> positions);
+
 /// Measures any number of pairs, block by block. use(p, measured, column) for each of them, in their order.
 template <class Real, class Use>
 void for_measured(std::span<const ContactPair> pairs, std::span<const Vec4<Real>> positions, const Use& use) {

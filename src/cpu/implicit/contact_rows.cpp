@@ -25,9 +25,8 @@ void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weigh
     const bool is_known = known != memory_.end() && known->key == row.key;
     if (is_known)
         row.ease =
-            known->ease * std::max(Real(0), Real(1) - start.step / static_cast<Real>(tuning::kPushing));
-    if (!is_known && row.gap <= Real(0))
-        row.ease = static_cast<Real>(tuning::kLeastReach) * row.reach - row.gap;
+            known->ease * std::max(Real(0), Real(1) - start.step / static_cast<Real>(tuning::kImpactTime));
+    if (!is_known && row.gap <= Real(0)) row.ease = static_cast<Real>(tuning::kHardly) * row.reach - row.gap;
     row.gap += row.ease;
     const Real there = row.gap_at(relative<Real>(row, start.expected));
     row.stiffness = weight * Real(4) / (first + second);
@@ -42,7 +41,7 @@ void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weigh
     } else {
         new_rows_.push_back(static_cast<std::uint32_t>(rows.size()));
         const Real nearest =
-            std::max(there, static_cast<Real>(tuning::kChordGap) * std::min(row.gap, row.reach));
+            std::max(there, static_cast<Real>(tuning::kLinearGap) * std::min(row.gap, row.reach));
         row.limit = row.friction * row.force_of(nearest);
     }
     // Of belts, whose surfaces move within themselves.
@@ -148,7 +147,7 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         const auto nearest = nearest_gaps_.find({row.object, row.other});
         const Real part = nearest == nearest_gaps_.end() ? Real(1) : nearest->second;
         // Alone it presses nothing: its reach is its gap, without rounding.
-        row.reach = std::clamp(row.gap / part, static_cast<Real>(tuning::kLeastReach) * row.reach, row.reach);
+        row.reach = std::clamp(row.gap / part, static_cast<Real>(tuning::kHardly) * row.reach, row.reach);
     }
 }
 

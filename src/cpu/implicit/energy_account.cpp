@@ -91,8 +91,7 @@ void EnergyAccount<Real>::find_energy(std::size_t body, const Nodes<Real>& nodes
     momenta_[body] = momentum;
     potentials_[body] = potential;
     after_[body] = motion + potential + gas;
-    rounding_[body] =
-        tuning::kLeastEnergy + tuning::kEnergyRounding * (motion + std::abs(potential) + std::abs(gas));
+    rounding_[body] = tuning::kEnergyRounding * (motion + std::abs(potential) + std::abs(gas));
 }
 
 // Each of two bodies has half.
@@ -210,7 +209,7 @@ double EnergyAccount<Real>::measure(const Step& step) {
             gained[i] -= gain;
             motions[i] = std::max(motions[i] - before, 0.0);
         }
-        slacks[i] += tuning::kSlackOfEnergy * motions[i];
+        slacks[i] += 2.0 * tuning::kHardly * motions[i];
     }
     for (std::size_t i = 0; i < bodies; ++i) {
         dues_[i] = std::max(owed_[i] - slacks[i], 0.0);

@@ -23,6 +23,46 @@ AxisBox<Real> swept(AxisBox<Real> box, const Vec3<Real>& motion) {
     return box;
 }
 
+// Of what goes on by more than half of its gap: the direction where it is nearest on this way. What passes an
+// edge or a corner meets it beside, and not ahead. The second side goes beside the first as its nearest point
+// does.
+template <class Real>
+void look_beside_way(const Paths<Real>& paths, NearPair<Real>& near) {
+    const ContactPair& pair = near.pair;
+    Vec3<Real> way(0);
+    std::array<Vec4<Real>, 4> places{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Real w = near.weights[static_cast<int>(k)];
+        way += (pair.side_of(k) == 0 ? -w : w) * paths.step * Vec3<Real>(paths.velocities[pair.nodes[k]]);
+        places[k] = paths.from[pair.nodes[k]];
+    }
+    if (!(Real(4) * glm::dot(way, way) > near.gap * near.gap) || !(glm::dot(way, near.normal) < Real(0)))
+        return;
+    ContactPair local = pair;
+    local.nodes = {0, 1, 2, 3};
+    const auto apart_at = [&](Real time) {
+        std::array<Vec4<Real>, 4> there = places;
+        for (std::size_t k = pair.first_count; k < 4; ++k) there[k] += Vec4<Real>(time * way, 0);
+        MeasuredPairs<Real> measured;
+        measure_pairs({&local, 1}, there, measured);
+        return Vec3<Real>(measured.apart[0][0], measured.apart[1][0], measured.apart[2][0]);
+    };
+    // The distance of convex sides is convex in time.
+    Real time = 1, step = 1;
+    Vec3<Real> apart = apart_at(time);
+    for (std::uint32_t k = 0; k < 8 && (k > 0 || glm::dot(apart, way) > Real(0)); ++k) {
+        step *= Real(0.5);
+        time += glm::dot(apart, way) > Real(0) ? -step : step;
+        apart = apart_at(time);
+    }
+    if (time < Real(1)) apart -= glm::dot(apart, way) / glm::dot(way, way) * way;
+    const auto least = static_cast<Real>(tuning::kLeastOfReach) * static_cast<Real>(pair.reach);
+    if (!(glm::length(apart) > least)) return;
+    const Vec3<Real> normal = glm::normalize(apart);
+    const Real gap = separation(pair, normal, paths.from);
+    if (gap > least) near = {pair, normal, near.weights, gap, rounding_along(normal, pair, paths.from)};
+}
+
 }  // namespace
 
 template <class Real>
@@ -142,7 +182,7 @@ void FindPairs<Real>::find_own(const Paths<Real>& paths) {
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         owns_[o] = {};
         if (!kept_.is_convex(o) || is_still_[o] != 0) continue;
-        add_lost(o, kept_.find_lost_tets(o, static_cast<Real>(tuning::kKept), paths.from, paths.to));
+        add_lost(o, kept_.find_lost_tets(o, static_cast<Real>(tuning::kNearly), paths.from, paths.to));
         owns_[o].listed = owns_[o].boxes.size();
     }
 }
@@ -152,7 +192,7 @@ bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
     bool any = false;
     for (std::uint32_t o = 0; finds_own_ && o < model_->body_count(); ++o) {
         if (!kept_.is_convex(o) || is_still_[o] != 0) continue;
-        add_lost(o, kept_.find_more_lost(o, static_cast<Real>(tuning::kKept), owns_[o].lost, ends));
+        add_lost(o, kept_.find_more_lost(o, static_cast<Real>(tuning::kNearly), owns_[o].lost, ends));
         any = any || owns_[o].boxes.size() > owns_[o].listed;
     }
     return any;
@@ -437,6 +477,7 @@ void FindPairs<Real>::keep_near(const Paths<Real>& paths, std::span<const Contac
                              measured.weights[3][c]},
                             gap,
                             measured.rounding[c]});
+            if (!paths.velocities.empty()) look_beside_way(paths, kept.back());
         });
 }
 

@@ -55,6 +55,8 @@ struct Paths {
     std::span<const Vec4<Real>> from, to;  ///< xyz [m], shape [nodes]
     Real nearness = 1;                     ///< within which part of their reach pairs are wanted
     Real slack = static_cast<Real>(tuning::kPathSlack);  ///< [thicknesses of the object]
+    std::span<const Vec4<Real>> velocities = {};  ///< when the part begins [m/s], shape [nodes]; or empty
+    Real step = 0;                                ///< of the part [s]
 };
 
 /// Lists all pairs of surface nodes and faces, and of surface edges, that may come as near as their paths say

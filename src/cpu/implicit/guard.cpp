@@ -36,33 +36,38 @@ Guard<Real>::Guard(std::shared_ptr<const Model> model, std::shared_ptr<const Con
       is_changed_(model_->node_count()),
       is_frozen_(model_->node_count()) {}
 
-// Islands of objects with pairs in common. Those with an object that is held stay where they are.
+// Islands of objects with pairs in common. Where something is held, they go as that does, if it all goes the
+// same way.
 template <class Real>
 void Guard<Real>::find_frames(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
                               std::span<const Vec4<Real>> ends) {
     DisjointSets islands(model_->objects.size());
     for (const NearPair<Real>& near : pairs) islands.unite(near.pair.object, near.pair.other);
-    std::vector<glm::dvec3> sums(frames_.size(), glm::dvec3(0.0));
-    std::vector<double> masses(frames_.size(), 0.0);
-    std::vector<std::uint8_t> is_held(frames_.size());
+    struct Sums {
+        double weight = 0.0, squares = 0.0;
+        glm::dvec3 moved{0.0};
+    };
+    std::vector<Sums> free(frames_.size()), held = free;
     for (std::uint32_t o = 0; o < frames_.size(); ++o) {
         const Range& nodes = model_->objects[o].nodes;
         const std::uint32_t island = islands.least(o);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            if (ends[n].w == Real(0)) {
-                is_held[island] = 1;
-                continue;
-            }
-            const auto mass = static_cast<double>(model_->masses[n]);
-            masses[island] += mass;
-            sums[island] += mass * glm::dvec3(Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]));
+            const bool is_held = ends[n].w == Real(0);
+            const double weight = is_held ? 1.0 : static_cast<double>(model_->masses[n]);
+            const glm::dvec3 d(Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]));
+            Sums& sums = (is_held ? held : free)[island];
+            sums.weight += weight;
+            sums.moved += weight * d;
+            sums.squares += weight * glm::dot(d, d);
         }
     }
     for (std::uint32_t o = 0; o < frames_.size(); ++o) {
         const std::uint32_t island = islands.least(o);
-        frames_[o] = is_held[island] != 0 || masses[island] == 0.0
-                         ? Vec3<Real>(0)
-                         : Vec3<Real>(sums[island] / masses[island]);
+        const Sums& sums = (held[island].weight > 0.0 ? held : free)[island];
+        const glm::dvec3 mean = sums.weight > 0.0 ? sums.moved / sums.weight : glm::dvec3(0.0);
+        const bool is_same =
+            sums.squares <= (1.0 + tuning::kHardly * tuning::kHardly) * sums.weight * glm::dot(mean, mean);
+        frames_[o] = held[island].weight == 0.0 || is_same ? Vec3<Real>(mean) : Vec3<Real>(0);
     }
     for (Vec3<Real>& frame : frames_) frame = outside_planes(frame);
 }
@@ -183,12 +188,13 @@ void Guard<Real>::clip(const NearPair<Real>& near, const Paths<Real>& paths,
     const Vec3<Real> origin(paths.from[pair.nodes[0]]), n = near.normal;
     Real heights[4], top = 0, bottom = std::numeric_limits<Real>::infinity(), first = 0, second = 0;
     Real approach = 0;  // of nodes that do not yield
+    const Vec3<Real>& frame = frames_[pair.object];
     for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t node = pair.nodes[k];
         heights[k] = glm::dot(n, Vec3<Real>(paths.from[node]) - origin);
         const Real w = near.weights[static_cast<int>(k)];
         const Real along = ends[node].w == Real(0)
-                               ? glm::dot(n, Vec3<Real>(ends[node]) - Vec3<Real>(paths.from[node]))
+                               ? glm::dot(n, Vec3<Real>(ends[node]) - Vec3<Real>(paths.from[node]) - frame)
                                : Real(0);
         if (pair.side_of(k) == 0) {
             top = std::max(top, heights[k]);
@@ -202,13 +208,14 @@ void Guard<Real>::clip(const NearPair<Real>& near, const Paths<Real>& paths,
     }
     const Real gap = (bottom - top) - near.rounding;
     const Real room = gap - least_gap(near, gap);
-    const Real usable = (room > Real(0) ? static_cast<Real>(tuning::kUsable) : Real(1)) * room - approach;
+    const Real usable =
+        (room > Real(0) ? static_cast<Real>((1.0 - tuning::kSlightly)) : Real(1)) * room - approach;
     Real share = Real(0.5);
     if (first + second > Real(0)) {
         share = first / (first + second);
         if (first > Real(0) && second > Real(0))
-            share = std::clamp(share, static_cast<Real>(tuning::kLeastShare),
-                               Real(1) - static_cast<Real>(tuning::kLeastShare));
+            share = std::clamp(share, static_cast<Real>(tuning::kSlightly),
+                               Real(1) - static_cast<Real>(tuning::kSlightly));
     }
     for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t node = pair.nodes[k];
@@ -268,7 +275,7 @@ void Guard<Real>::place_body(std::uint32_t object, const Paths<Real>& paths, std
             });
         }
     };
-    for (std::uint32_t k = 0; k < tuning::kProjections; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kMostRounds; ++k) {
         bool is_outside = false;
         glm::dvec3 force(0.0), moment(0.0);
         double most = 0.0;
@@ -293,7 +300,7 @@ void Guard<Real>::place_body(std::uint32_t object, const Paths<Real>& paths, std
             shorter = std::min(shorter, 0.99 * std::max(room, 0.0) / along);
         });
         if (shorter == 1.0) break;
-        part *= k < tuning::kProjections ? shorter : 0.0;
+        part *= k < tuning::kMostRounds ? shorter : 0.0;
     }
     const glm::dmat3 turn = rotation_about(part * w);
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
@@ -307,7 +314,7 @@ template <class Real>
 void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
     Vec3<Real> d = wanted_[node];
     const Real tiny = Real(1e-6) * glm::length(d);
-    for (std::uint32_t k = 0; k < tuning::kProjections; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kMostRounds; ++k) {
         bool is_outside = false;
         for_spaces(node, paths, [&](const HalfSpace& space) {
             const Real over = glm::dot(space.normal, d) - space.room;

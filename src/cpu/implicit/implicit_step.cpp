@@ -177,6 +177,10 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
         const std::vector<Vec4<Real>> before_guard = current.positions;
         const Field solved = system_.displacements;
         if (guard(previous, before_guard, current)) {
+            if (hold_blocked(previous)) {
+                damps = false;
+                continue;
+            }
             for (const std::uint32_t o : rigid_bodies_.objects()) {  // joints may be stretched by it
                 const Range& nodes = model_->objects[o].nodes;
                 for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -184,14 +188,12 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
                         system_.displacements[n] = Vec3<Real>(current.positions[n] - previous.positions[n]);
             }
             gained = gain();
-            // What is blocked has pushed as if it was not.
-            const bool any_waits = any_moves(previous, [&](std::uint32_t o) { return blocked_[o] != 0; });
-            if (gained > 0.0 || any_waits) {
+            if (gained > 0.0) {
                 stopped = stop_guarded(before_guard, current);
                 gained = gain();
             }
         }
-        if (!is_shortest && gained > tuning::kMostGain) {
+        if (!is_shortest && gained > tuning::kSlightly) {
             divide();
             continue;
         }
@@ -392,7 +394,7 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     });
     system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step, cavity_drives_);
     const double fall =
-        tuning::kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
+        tuning::kHardly * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
     const double rounding =
         tuning::kRoundings * static_cast<double>(std::numeric_limits<Real>::epsilon() / input.step);
     std::vector<double> energies(model_->body_count(), 0.0), of_islands = energies;
@@ -410,8 +412,7 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands_.of_bodies[o];
         const double share = model_->objects[o].mass / islands_.masses[island];
-        system_.enough[o] =
-            tuning::kTolerance * (energies[o] + tuning::kInIsland * share * of_islands[island]);
+        system_.enough[o] = tuning::kTolerance * (energies[o] + tuning::kNearly * share * of_islands[island]);
     }
     // A hand pulls like inertia does, to a place of its own.
     if (input.pulls != nullptr)
@@ -443,7 +444,8 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
 template <class Real>
 bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest, bool own) {
     if (!contacts_) return true;
-    const Paths<Real> paths{previous.positions, ends_};
+    const Paths<Real> paths{
+        .from = previous.positions, .to = ends_, .velocities = previous.velocities, .step = step_};
     pairs_.begin(paths, own, asleep_);
     if (!is_shortest && pairs_.fastest_approach(paths) > static_cast<Real>(tuning::kFastest)) return false;
     pairs_.run(paths);
@@ -470,11 +472,15 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
 template <class Real>
 bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, const std::vector<Vec4<Real>>& wanted,
                                Nodes<Real>& current) {
-    const Paths<Real> paths{previous.positions, ends_, static_cast<Real>(tuning::kLeastOfReach)};
+    const Paths<Real> paths{.from = previous.positions,
+                            .to = ends_,
+                            .nearness = static_cast<Real>(tuning::kLeastOfReach),
+                            .velocities = previous.velocities,
+                            .step = step_};
     blocked_.clear();
     bool has_changed = false;
     std::size_t checked = 0;
-    for (std::uint32_t k = 0; k < tuning::kMostGuards; ++k) {
+    for (std::uint32_t k = 0; k < tuning::kMostRounds; ++k) {
         const std::vector<std::uint32_t> strays =
             guard_.run(paths, pairs_.pairs(), compliances_, current.positions, blocked_, checked);
         if (attachments_.block_held(current.positions, surface_->thicknesses, blocked_)) {
@@ -492,6 +498,18 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, const std::vector<Ve
     for_each_index(ends_.size(), [&](std::size_t n) {  // nothing moves
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
     });
+    return true;
+}
+
+// What is blocked waits: else bodies would be pressed and carried by it as if it moved.
+// @return whether it was to move: then the part is made again
+template <class Real>
+bool ImplicitStep<Real>::hold_blocked(Nodes<Real>& previous) const {
+    const auto is_blocked = [&](std::uint32_t object) { return blocked_[object] != 0; };
+    if (!any_moves(previous, is_blocked)) return false;
+    for (const HandleNode& held : model_->handle_nodes)
+        if (is_blocked(model_->node_objects[held.node]))
+            previous.velocities[held.node] = Vec4<Real>(Vec3<Real>(0), previous.velocities[held.node].w);
     return true;
 }
 

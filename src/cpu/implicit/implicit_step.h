@@ -128,6 +128,7 @@ private:
     bool shorten(StepInput<Real>& input) const;
     bool detect(const Nodes<Real>& previous, bool is_shortest, bool own = true);
     bool guard(const Nodes<Real>& previous, const std::vector<Vec4<Real>>& wanted, Nodes<Real>& current);
+    bool hold_blocked(Nodes<Real>& previous) const;
     std::vector<std::uint32_t> stop_guarded(std::span<const Vec4<Real>> wanted, Nodes<Real>& current) const;
     template <class Counts>
     bool any_moves(const Nodes<Real>& previous, const Counts& counts) const;

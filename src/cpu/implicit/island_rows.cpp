@@ -30,7 +30,7 @@ void IslandRows<Real>::find_chords(std::span<const Vec3<Real>> expected_slips) c
         if (std::min(row.gap, there) < row.reach) {
             const Real from = std::min(row.gap, row.reach);
             const Real to =
-                row.gap > Real(0) ? std::max(there, static_cast<Real>(tuning::kChordGap) * from) : there;
+                row.gap > Real(0) ? std::max(there, static_cast<Real>(tuning::kLinearGap) * from) : there;
             const Real force = row.force_of(from);
             Real slope = row.stiffness;
             if (to < from * Real(0.999999)) {
@@ -79,11 +79,11 @@ double IslandRows<Real>::line_search(std::span<const Vec3<Real>> changes, double
     };
     const double first = fall(0.0);
     if (!(first > 0.0)) return 0.0;
-    if (fall(1.0) >= -tuning::kTurned * first) return 1.0;
+    if (fall(1.0) >= -tuning::kNearly * first) return 1.0;
     double low = 0.0, high = 1.0;
     for (std::uint32_t k = 0; k < tuning::kMostRounds; ++k) {
         const double middle = 0.5 * (low + high), there = fall(middle);
-        if (std::abs(there) <= tuning::kTurned * first) return middle;
+        if (std::abs(there) <= tuning::kNearly * first) return middle;
         (there > 0.0 ? low : high) = middle;
     }
     return 0.5 * (low + high);

@@ -65,8 +65,8 @@ public:
                         [](const auto& row) { return row.is_linear(); })) {
             newton_step(2 * system_.iterations, 0.0, true);
         } else {
-            for (std::uint32_t k = 0;
-                 k < tuning::kMostLinearisations && newton_step(system_.iterations, tuning::kForcing, k == 0);
+            for (std::uint32_t k = 0; k < tuning::kMostLinearisations &&
+                                      newton_step(system_.iterations, tuning::kSlightly, k == 0);
                  ++k)
                 rows_.find_tangents();
         }

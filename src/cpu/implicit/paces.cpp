@@ -79,7 +79,7 @@ bool Paces<Real>::choose(const Islands& islands, Real step, bool damps, std::spa
         if (goes_on) {
             scheme.set_second_order(o, step, rigid_ties[island] != 0 ? 0.0 : tuning::kLeftOfFast);
         } else {
-            scheme.set(o, step, pace == Pace::still ? static_cast<Real>(tuning::kRestingTime) : Real(0));
+            scheme.set(o, step, pace == Pace::still ? static_cast<Real>(tuning::kImpactTime) : Real(0));
         }
         any_goes_on = any_goes_on || goes_on;
     }

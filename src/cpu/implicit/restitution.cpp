@@ -88,11 +88,11 @@ bool Restitution<Real>::run(const Step& step, const RigidLevel<Real>& rigid, Nod
             meeting.energy = energy_of(step.energies_before);
         }
         meeting.time += step.length;
-        const double left = tuning::kLeftOfApproach * meeting.approach;
+        const double left = tuning::kNearly * meeting.approach;
         // Both may have been held meanwhile, or fallen asleep.
         const bool any_free = is_free_body(at->first.first, rigid) || is_free_body(at->first.second, rigid);
         const bool counts =
-            any_free && meeting.approach > step.resting_speed && meeting.time < tuning::kLongestImpact;
+            any_free && meeting.approach > step.resting_speed && meeting.time < tuning::kImpactTime;
         bool is_over = !counts;
         if (counts && now.after >= -left * now.force &&
             (now.after - now.before) * meeting.time <= left * now.force * step.length) {

@@ -31,10 +31,11 @@ inline glm::dmat3 full(const SymmetricMatrix<double>& m) {
 }
 
 /// How much a body resists rotations: sum k (r^2 - r r^T). A row of nodes, which does not resist one about
-/// itself, gets a little. @param square sum k r r^T
+/// itself, gets a little; nodes in one point, which no rotation moves, any. @param square sum k r r^T
 inline SymmetricMatrix<double> inertia_of(const SymmetricMatrix<double>& square) {
     constexpr double kThin = 1e-6;
     const double trace = square.diagonal.x + square.diagonal.y + square.diagonal.z;
+    if (!(trace > 0.0)) return {glm::dvec3(1.0), glm::dvec3(0.0)};
     return {(1.0 + kThin) * glm::dvec3(trace) - square.diagonal, -square.beside};
 }
 
@@ -57,8 +58,7 @@ struct RigidInertia {
     explicit RigidInertia(RigidSums sums)
         : center(sums.arm / sums.stiffness), inverse_mass(1.0 / sums.stiffness) {
         sums.square.add_outer(-sums.stiffness, center);
-        const glm::dvec3& d = sums.square.diagonal;
-        if (d.x + d.y + d.z > 0.0) inverse_inertia = glm::inverse(full(inertia_of(sums.square)));
+        inverse_inertia = glm::inverse(full(inertia_of(sums.square)));
     }
 
     /// @param angular momentum about the origin

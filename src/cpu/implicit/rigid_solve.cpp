@@ -301,10 +301,10 @@ std::vector<Motion> RigidSolve<Real>::run(std::vector<Motion> base, std::span<co
     };
     for (std::uint32_t round = 0; round < tuning::kMostRounds; ++round) {
         std::vector<Motion> step = forces();
-        if (is_balanced(tuning::kNearBalance, step)) {
+        if (is_balanced(tuning::kNearly, step)) {
             rows_.set_limits();
             step = forces();
-            if (round > 0 && is_balanced(tuning::kBalance, step)) break;
+            if (round > 0 && is_balanced(tuning::kHardly, step)) break;
         }
         rows_.find_tangents();
         find_turning();

@@ -11,7 +11,7 @@ namespace {
 using contact_tuning::kGuardRounds;
 
 // As shaders have them.
-constexpr std::size_t kFrameSums = 5;
+constexpr std::size_t kFrameSums = 10;
 
 gl::Program guard_program(const std::string& name, const gl::Defines& defines = {}) {
     return gl::Program::compute("sim/implicit/guard_" + name + ".comp", defines);

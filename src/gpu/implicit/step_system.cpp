@@ -194,7 +194,7 @@ void StepSystem::solve(const NodeBuffers& at) {
         for (const gl::Program* program : rows_->all()) bind_positions(*program, at);
         run(rows_->begin, buffers_.object_count);
         if (buffers_.has_large_islands()) run(rows_->base, buffers_.chunk_count);
-        run_newton(contact_tuning::kBalance);
+        run_newton(contact_tuning::kHardly);
     }
     if (small_islands_) {
         bind_positions(*small_islands_, at);
@@ -202,7 +202,7 @@ void StepSystem::solve(const NodeBuffers& at) {
         run(*small_islands_, buffers_.object_count);
     }
     if (buffers_.has_large_islands()) solve_large_islands();
-    if (rows_) run_newton(contact_tuning::kBalance);
+    if (rows_) run_newton(contact_tuning::kHardly);
 }
 
 std::vector<SolveState> StepSystem::states() const {

@@ -124,7 +124,7 @@ void expect_one_face_presses(Surfaces& surfaces, const glm::dvec3& point) {
     }
     EXPECT_EQ(sum, 1.0) << point.x << " " << point.y << " " << point.z;
     // Beside an edge another face may press, at its point on the edge.
-    const double most = 0.5 * cpu::tuning::kOnEdge * cpu::tuning::kOnEdge * least_gap;
+    const double most = 0.5 * cpu::tuning::kHardly * cpu::tuning::kHardly * least_gap;
     EXPECT_NEAR(pressing_gap, least_gap, most + 1e-12) << point.x << " " << point.y << " " << point.z;
 }
 

@@ -123,6 +123,38 @@ TEST_F(FindPairsTest, ListsPairsOfNodesAnewThatEndElsewhere) {
     EXPECT_TRUE(any_new);
 }
 
+// A block that flies below another's edge, 3 mm from it, has that above its way, and ahead of it without one.
+TEST_F(FindPairsTest, LooksBesideTheWayOfWhatPasses) {
+    const glm::dvec3 way(0.05, 0, 0);
+    model_ = test::make_blocks({{.cells = {1, 1, 1}, .size = glm::dvec3(0.1)},
+                                {.place = {0.12, 0.103, 0}, .cells = {1, 1, 1}, .size = glm::dvec3(0.1)}});
+    surface_ = std::make_shared<ContactSurface>(make_contact_surface(*model_, {}));
+    from_.assign(model_->positions.begin(), model_->positions.end());
+    to_ = from_;
+    std::vector<glm::dvec4> velocities(from_.size(), glm::dvec4(0.0));
+    for (std::uint32_t n = 0; n < model_->objects[0].nodes.count; ++n) {
+        to_[n] += glm::dvec4(way, 0.0);
+        velocities[n] = glm::dvec4(way / 0.01, 0.0);
+    }
+    const auto least_upwards = [&](const cpu::Paths<double>& paths) {  // of normals
+        cpu::FindPairs<double> found(model_, surface_, false);
+        found.begin(paths);
+        found.run(paths);
+        EXPECT_GT(found.pairs().size(), 4u);
+        double least = 1.0;
+        for (const cpu::NearPair<double>& near : found.pairs()) {
+            const double towards = near.pair.object == 0 ? 1.0 : -1.0;
+            least = std::min(least, towards * near.normal.y);
+            EXPECT_GT(near.gap, 0.0);
+            EXPECT_NEAR(cpu::separation<double>(near.pair, near.normal, from_), near.gap, 1e-12);
+        }
+        return least;
+    };
+    EXPECT_LT(least_upwards({.from = from_, .to = to_}), 0.2);
+    EXPECT_NEAR(least_upwards({.from = from_, .to = to_, .velocities = velocities, .step = 0.01}), 1.0, 1e-9);
+    EXPECT_LT(least_upwards({.from = from_, .to = to_, .velocities = velocities, .step = 1e-4}), 0.2);
+}
+
 // In reaches: of two that fly together past the third, beside it; with self-contact, what nodes of one go
 // beside each other.
 TEST_F(FindPairsTest, KnowsHowFarBodiesGoBesideEachOther) {

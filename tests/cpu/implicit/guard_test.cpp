@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -73,6 +74,18 @@ TEST_F(GuardTest, LetsIslandsGoOnTogether) {
     const std::vector<glm::dvec4> ends = guarded({0.5, 0.1, 0}, {0.5, 0.1, 0});
     for (std::size_t n = 0; n < ends.size(); ++n)
         EXPECT_EQ(glm::dvec3(ends[n]), glm::dvec3(from_[n]) + glm::dvec3(0.5, 0.1, 0));
+}
+
+// What is held and goes on takes with it what lies on it, and is not in its own way.
+TEST_F(GuardTest, GoesWithWhatIsHeld) {
+    for (std::size_t n = 0; n < model_->objects[0].nodes.count; ++n) from_[n].w = compliances_[n] = 0.0;
+    const std::vector<glm::dvec4> ends = guarded({0.5, 0.1, 0}, {0.4, 0.1, 0});
+    EXPECT_GT(guard_().clipped_pairs(), 0u);
+    for (std::size_t n = 0; n < ends.size(); ++n) {
+        const glm::dvec3 d = glm::dvec3(ends[n] - from_[n]) - glm::dvec3(0.5, 0.1, 0);
+        EXPECT_TRUE(from_[n].w > 0.0 || d == glm::dvec3(0));
+        EXPECT_TRUE(from_[n].x > 0.15 || std::abs(d.x) < 0.002) << d.x;  // within the gap
+    }
 }
 
 // The side that yields less goes farther.

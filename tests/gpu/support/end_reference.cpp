@@ -50,7 +50,8 @@ void EndReference::find_rows() {
                     : 0.0;
     }
     if (contacts_) {
-        const cpu::Paths<double> paths{from.positions, ends_};
+        const cpu::Paths<double> paths{
+            .from = from.positions, .to = ends_, .velocities = from.velocities, .step = h};
         pairs_.begin(paths, true, asleep_);
         pairs_.run(paths);
     }
@@ -197,7 +198,7 @@ EndReference::Outcome EndReference::end(double shortest) {
             gained = measure();
         }
     }
-    if (!is_shortest && gained > tuning::kMostGain) return Outcome::divided;
+    if (!is_shortest && gained > tuning::kSlightly) return Outcome::divided;
     const bool stands_still = !std::isfinite(gained);
     if (stands_still) {
         to = from;

@@ -105,10 +105,10 @@ public:
             if (++result.runs == 1) result.clipped = downloaded(guard_.found())[0].clipped;
             const bool has_lost = finder_.find_lost(downloaded(state_.to.positions)) || wishes_.loses_always;
             upload_counts(has_lost);
-            guard_.decide(tuning::kMostGuards);
+            guard_.decide(tuning::kMostRounds);
             clock = state_.tries.clock();
             follow_paths();
-        } while (clock.guards != 0 && result.runs <= tuning::kMostGuards);
+        } while (clock.guards != 0 && result.runs <= tuning::kMostRounds);
         result.clock = clock;
         const GuardState found = downloaded(guard_.found())[0];
         result.is_changed = found.is_changed != 0;
@@ -192,7 +192,7 @@ Guarded guard_on_cpu(const Wishes& wishes) {
     std::vector<cpu::Vec4<Real>> ends = converted<Real>(wishes.ends);
     finder.begin(ways.paths());
     finder.run(ways.paths());
-    while (result.runs < tuning::kMostGuards) {
+    while (result.runs < tuning::kMostRounds) {
         std::vector<std::uint8_t> is_blocked;
         const std::vector<std::uint32_t> strays =
             guard.run(ways.paths(), finder.pairs(), ways.compliances, ends, is_blocked);

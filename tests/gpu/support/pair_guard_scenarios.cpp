@@ -406,6 +406,10 @@ Scenarios pair_guard_scenarios() {
         add("folded_by_" + std::to_string(int(10 * angle)),
             [=] { return soundness_error(folding(angle), 1.1); });
     add("a_handle_with_room", [] { return handle_error({.motion = {0.05, 0, 0}}); });
+    // With the wall, which is held too and does not move, nothing is in common.
+    add("a_handle_with_room_at_a_wall", [] {
+        return handle_error({.motion = {0.004, 0, 0}, .room = 0.006});
+    });
     add("a_blocked_handle", [] { return handle_error({.motion = {0.2, 0, 0}, .room = 0.008}); });
     // To a plate that cannot give way, nearer than the least gap, but not too near.
     add("a_handle_that_just_fits", [] {

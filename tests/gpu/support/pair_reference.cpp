@@ -37,7 +37,8 @@ public:
           model_(*at.model),
           surface_(std::make_shared<ContactSurface>(make_contact_surface(model_, {}))),
           from_(converted<double>(begins_of(at))),
-          to_(converted<double>(found.path_ends)) {
+          to_(converted<double>(found.path_ends)),
+          velocities_(converted<double>(model_.velocities)) {
         for (std::uint32_t o = 0; at.own && o < model_.body_count(); ++o)
             if (surface_->is_convex[o] != 0) add_lost(o);
         leaf_of_face_.resize(model_.faces.size());
@@ -63,7 +64,8 @@ public:
         std::fill(surface->is_convex.begin(), surface->is_convex.end(), std::uint8_t(0));
         const double thinnest = *std::min_element(surface->thicknesses.begin(), surface->thicknesses.end());
         cpu::FindPairs<double> find(case_.model, surface, case_.own);
-        const cpu::Paths<double> paths{from_, to_, 1.0, tuning::kPathSlack + band / thinnest};
+        cpu::Paths<double> paths = this->paths();
+        paths.slack += band / thinnest;
         find.begin(paths);
         find.run(paths);
         Pairs pairs;
@@ -75,7 +77,7 @@ public:
     /// As it is.
     Pairs find_exactly() const {
         cpu::FindPairs<double> find(case_.model, surface_, case_.own);
-        const cpu::Paths<double> paths{from_, to_};
+        const cpu::Paths<double> paths = this->paths();
         find.begin(paths);
         find.run(paths);
         Pairs pairs;
@@ -85,9 +87,15 @@ public:
     }
 
 private:
+    cpu::Paths<double> paths() const {
+        return {.from = from_,
+                .to = to_,
+                .velocities = velocities_,
+                .step = kPairStep / (case_.is_shortest ? 256.0 : 1.0)};
+    }
     void add_lost(std::uint32_t body) {
         cpu::KeptDistances<double> kept(case_.model, *surface_);
-        for (const cpu::LostTets& tets : kept.find_lost_tets(body, tuning::kKept, from_, to_))
+        for (const cpu::LostTets& tets : kept.find_lost_tets(body, tuning::kNearly, from_, to_))
             lost_[body].add(kept.box_of(body, tets));
     }
     bool is_listed(const cpu::ContactPair& pair, double band) const {
@@ -124,7 +132,7 @@ private:
     const PairCase& case_;
     const Model& model_;
     std::shared_ptr<ContactSurface> surface_;
-    std::vector<glm::dvec4> from_, to_;
+    std::vector<glm::dvec4> from_, to_, velocities_;
     std::map<std::uint32_t, cpu::AxisBox<double>> lost_;  // at the start, by body
     std::vector<std::uint32_t> leaf_of_face_;
 };
@@ -204,17 +212,18 @@ void compare_pair(const NearPair& actual, const cpu::NearPair<double>& expected,
     const double bound_apart = bound + std::sqrt(8.0 * 0x1p-23) * expected.gap;
     errors.add(glm::distance(gap * normal, apart), bound_apart);
     errors.add(gap > 0.0 ? glm::length(normal) - 1.0 : 0.0, 1e-5);
-    glm::dvec3 between(0.0);
+    glm::dvec3 difference(0.0);  // of what is between the nearest points
     double sides[2] = {0.0, 0.0};
     for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t side = expected.pair.side_of(k);
         const auto weight = static_cast<double>(actual.weights[static_cast<int>(k)]);
         errors.add(weight - 0.5, 0.5 + 1e-6);
         sides[side] += weight;
-        between += (side == 0 ? -weight : weight) * glm::dvec3(reference.from()[nodes[k]]);
+        const double more = weight - expected.weights[static_cast<int>(k)];
+        difference += (side == 0 ? -more : more) * glm::dvec3(reference.from()[nodes[k]]);
     }
     for (const double side : sides) errors.add(side - 1.0, 1e-5);
-    errors.add(glm::distance(between, gap * normal), bound);
+    errors.add(glm::length(difference), bound);
     errors.add(static_cast<double>(actual.reach - expected.pair.reach), 1e-7);
     if (expected.gap < 100.0 * bound) return;  // of others the normal is not sure
     const double rounding = expected.rounding * 0x1p29;

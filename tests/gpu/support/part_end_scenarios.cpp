@@ -293,7 +293,7 @@ Scenarios part_end_scenarios() {
             for (ElasticCase& at : all) {
                 if (at.name != kind) continue;
                 shake_nodes(at.model, 0.01f);
-                return EndCase{std::make_shared<const Model>(std::move(at.model)), parts(3, {.noise = 0.2})};
+                return EndCase{std::make_shared<const Model>(std::move(at.model)), parts(3, {.noise = 0.5})};
             }
             return EndCase{};
         });

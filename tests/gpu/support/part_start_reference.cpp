@@ -247,7 +247,7 @@ private:
     }
 
     void find_enough(double step) {
-        const double fall = tuning::kAtRest * step * glm::length(glm::dvec3(model_.gravity));
+        const double fall = tuning::kHardly * step * glm::length(glm::dvec3(model_.gravity));
         const double rounding = tuning::kRoundings * std::numeric_limits<float>::epsilon() / step;
         std::vector<double> energies(model_.body_count()), of_islands = energies;
         for (std::uint32_t o = 0; o < model_.body_count(); ++o) {
@@ -265,7 +265,7 @@ private:
             const std::uint32_t island = islands_.of_bodies[o];
             const double share = model_.objects[o].mass / islands_.masses[island];
             system_.enough[o] =
-                tuning::kTolerance * (energies[o] + tuning::kInIsland * share * of_islands[island]);
+                tuning::kTolerance * (energies[o] + tuning::kNearly * share * of_islands[island]);
         }
     }
 
