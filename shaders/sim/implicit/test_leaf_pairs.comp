@@ -26,6 +26,7 @@ uniform usamplerBuffer hit_starts;  // by leaf pair
 uniform usamplerBuffer hit_sums;
 uniform usamplerBuffer hits;        // by invocation
 uniform samplerBuffer velocities;   // when the part begins [m/s]
+uniform uint body_count;
 uniform uint pair_capacity;
 layout(std430) writeonly buffer NearPairs { NearPair near_pairs[]; };
 #else
@@ -88,15 +89,19 @@ struct Measured {
     float gap;
 };
 
-Measured measure(Element element, uvec3 nodes) {
-    vec3 a = position(element.nodes.x), c = position(nodes.x), d = position(nodes.y), apart;
+// The nodes of an element, of an edge or of a node twice, and of what is tested, of an edge an end twice.
+mat2x3 starts_of(Element element) { return mat2x3(position(element.nodes.x), position(element.nodes.y)); }
+mat3 starts_of(uvec3 nodes) { return mat3(position(nodes.x), position(nodes.y), position(nodes.z)); }
+
+Measured measure(bool is_edge, mat2x3 of, mat3 to) {
+    vec3 apart;
     vec4 weights;
-    if (element.is_edge) {
-        EdgeToEdge at = edge_to_edge(a, position(element.nodes.y), c, d);
+    if (is_edge) {
+        EdgeToEdge at = edge_to_edge(of[0], of[1], to[0], to[1]);
         apart = at.apart;
         weights = vec4(1.0 - at.fraction, at.fraction, 1.0 - at.other_fraction, at.other_fraction);
     } else {
-        NodeToFace at = node_to_face(a, mat3(c, d, position(nodes.z)));
+        NodeToFace at = node_to_face(of[0], to);
         apart = at.apart;
         weights = vec4(1.0, at.weights);
     }
@@ -104,7 +109,7 @@ Measured measure(Element element, uvec3 nodes) {
     return Measured(weights, gap > 0.0 ? apart / gap : vec3(0.0), gap);
 }
 
-// How far a direction separates both sides. @param of, to their nodes; of an edge an end twice
+// How far a direction separates both sides.
 float separation(mat2x3 of, mat3 to, vec3 direction) {
     float top = max(dot(direction, of[1] - of[0]), 0.0);
     vec3 heights = vec3(dot(direction, to[0] - of[0]), dot(direction, to[1] - of[0]), dot(direction, to[2] - of[0]));
@@ -126,41 +131,40 @@ float rounding_of(Element element, uvec3 nodes, vec3 normal) {
     return kEpsilon * dot(abs(normal), 8.0 * extent + 4.0 * reach);
 }
 
-// Where a nearest point is on an edge of a face or at a corner, or edges are nearly parallel, and the pair goes on by more than half of
-// its gap: the line is as when it is shortest on this way. What passes a corner meets it beside, and not ahead. @param all the nodes of both sides
-Measured look_beside_way(Measured at, Element element, uvec3 nodes, uvec4 all, float reach) {
-    vec3 way = vec3(0.0);                                  // of the second side beside the first
-    vec3 edges[2] = vec3[](vec3(0.0), vec3(0.0));  // with a side's nearest point
-    uvec2 last = uvec2(kNone);
-    int count = 0;
+// Of what goes on by more than half of its gap: the direction where it is nearest on this way. What passes an edge or a corner meets
+// it beside, and not ahead. The second side goes beside the first as its nearest point does.
+Measured look_beside_way(Measured at, Element element, uvec3 nodes, uvec4 both, float reach) {
+    vec3 way = vec3(0.0);
     for (int k = 0; k < 4; ++k) {
-        if (!(at.weights[k] > kHardly)) continue;
-        int side = k < (element.is_edge ? 2 : 1) ? 0 : 1;
-        way += (side == 0 ? -at.weights[k] : at.weights[k]) * clock[0].step * texelFetch(velocities, int(all[k])).xyz;
-        if (last[side] != kNone) edges[side] = position(all[k]) - position(last[side]);
-        last[side] = all[k];
-        ++count;
+        bool is_first = k < (element.is_edge ? 2 : 1);
+        way += (is_first ? -at.weights[k] : at.weights[k]) * clock[0].step * texelFetch(velocities, int(both[k])).xyz;
     }
-    vec3 across = cross(edges[0], edges[1]);
-    bool is_parallel = dot(across, across) <= kNearly * dot(edges[0], edges[0]) * dot(edges[1], edges[1]);
-    if (count == 4 && !(element.is_edge && is_parallel)) return at;
-    vec3 edge = edges[0] == vec3(0.0) ? edges[1] : edges[0];
-    if (edge != vec3(0.0)) way -= dot(way, edge) / dot(edge, edge) * edge;
-    float square = dot(way, way), approach = -at.gap * dot(way, at.normal);
-    if (!(approach > 0.0) || !(4.0 * square > at.gap * at.gap)) return at;
-    vec3 apart = at.gap * at.normal + min(approach / square, 1.0) * way;
+    if (!element.is_edge && all(greaterThan(at.weights.yzw, vec3(kHardly)))) return at;
+    float square = dot(way, way);
+    if (!(4.0 * square > at.gap * at.gap) || !(dot(way, at.normal) < 0.0)) return at;
+    mat2x3 of = starts_of(element);
+    mat3 to = starts_of(nodes), ways = mat3(way, way, way);
+    Measured there = measure(element.is_edge, of, to + ways);
+    float time = 1.0, halved = 1.0;  // the distance of convex sides is convex in time
+    for (int k = 0; k < 5 && (k > 0 || dot(there.normal, way) > 0.0); ++k) {
+        halved *= 0.5;
+        time += dot(there.normal, way) > 0.0 ? -halved : halved;
+        there = measure(element.is_edge, of, to + time * ways);
+    }
+    vec3 apart = there.gap * there.normal;
+    if (time < 1.0) apart -= dot(apart, way) / square * way;
     float size = length(apart), least = kLeastOfReach * reach;
     if (!(size > least)) return at;
-    vec3 normal = apart / size;
-    float gap = separation(mat2x3(position(element.nodes.x), position(element.nodes.y)),
-                           mat3(position(nodes.x), position(nodes.y), position(nodes.z)), normal);
-    return gap > least ? Measured(at.weights, normal, gap) : at;
+    float gap = separation(of, to, apart / size);
+    return gap > least ? Measured(at.weights, apart / size, gap) : at;
 }
 
 NearPair make_pair(LeafPair pair, Element element, uint second) {
     uvec3 nodes = nodes_of(element, second);
     uvec4 all = element.is_edge ? uvec4(element.nodes, nodes.xy) : uvec4(element.nodes.x, nodes);
-    Measured at = look_beside_way(measure(element, nodes), element, nodes, all, reach_of(pair));
+    Measured at = measure(element.is_edge, starts_of(element), starts_of(nodes));
+    // Not between bodies: what these exert on each other along another line would have a moment.
+    if (max(pair.object, pair.other) >= body_count) at = look_beside_way(at, element, nodes, all, reach_of(pair));
     return NearPair(all.x, all.y, all.z, all.w, at.weights, vec4(at.normal, at.gap), element.number, second,
                     element.is_edge ? 1u : 0u, pair.slot, pair.object, pair.other, reach_of(pair),
                     rounding_of(element, nodes, at.normal));
@@ -219,7 +223,7 @@ uint test_element(LeafPair pair, Element element, uint first) {
     for (; candidates != 0u; candidates &= candidates - 1u) {
         uint k = uint(findLSB(candidates));
         uvec3 nodes = feature_nodes[first + k];
-        Measured at = measure(element, nodes);
+        Measured at = measure(element.is_edge, starts_of(element), starts_of(nodes));
         bool is_far = at.gap > wanted && separation(mat2x3(path_end(element.nodes.x), path_end(element.nodes.y)),
                                                        mat3(path_end(nodes.x), path_end(nodes.y), path_end(nodes.z)), at.normal) > wanted;
         near |= uint(!is_far) << k;

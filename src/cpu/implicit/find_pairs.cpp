@@ -36,6 +36,8 @@ void look_beside_way(const Paths<Real>& paths, NearPair<Real>& near) {
         way += (pair.side_of(k) == 0 ? -w : w) * paths.step * Vec3<Real>(paths.velocities[pair.nodes[k]]);
         places[k] = paths.from[pair.nodes[k]];
     }
+    const Vec4<Real>& w = near.weights;
+    if (!pair.is_edges() && std::min({w.y, w.z, w.w}) > static_cast<Real>(tuning::kHardly)) return;
     if (!(Real(4) * glm::dot(way, way) > near.gap * near.gap) || !(glm::dot(way, near.normal) < Real(0)))
         return;
     ContactPair local = pair;
@@ -50,7 +52,7 @@ void look_beside_way(const Paths<Real>& paths, NearPair<Real>& near) {
     // The distance of convex sides is convex in time.
     Real time = 1, step = 1;
     Vec3<Real> apart = apart_at(time);
-    for (std::uint32_t k = 0; k < 8 && (k > 0 || glm::dot(apart, way) > Real(0)); ++k) {
+    for (std::uint32_t k = 0; k < 5 && (k > 0 || glm::dot(apart, way) > Real(0)); ++k) {
         step *= Real(0.5);
         time += glm::dot(apart, way) > Real(0) ? -step : step;
         apart = apart_at(time);
@@ -477,7 +479,9 @@ void FindPairs<Real>::keep_near(const Paths<Real>& paths, std::span<const Contac
                              measured.weights[3][c]},
                             gap,
                             measured.rounding[c]});
-            if (!paths.velocities.empty()) look_beside_way(paths, kept.back());
+            // Not between bodies: what these exert on each other along another line would have a moment.
+            const bool is_collider = !model_->is_body(pair.object) || !model_->is_body(pair.other);
+            if (is_collider && !paths.velocities.empty()) look_beside_way(paths, kept.back());
         });
 }
 

@@ -223,7 +223,7 @@ void compare_pair(const NearPair& actual, const cpu::NearPair<double>& expected,
         difference += (side == 0 ? -more : more) * glm::dvec3(reference.from()[nodes[k]]);
     }
     for (const double side : sides) errors.add(side - 1.0, 1e-5);
-    errors.add(glm::length(difference), bound);
+    errors.add(glm::length(difference), bound_apart);
     errors.add(static_cast<double>(actual.reach - expected.pair.reach), 1e-7);
     if (expected.gap < 100.0 * bound) return;  // of others the normal is not sure
     const double rounding = expected.rounding * 0x1p29;
