@@ -51,8 +51,9 @@ REAL kLeftOfFast = 0.7;
 // The law of contacts. Lengths are parts of the reach.
 
 // From here inwards the force is linear: with the barrier to a ten-thousandth stiff cubes at 10 m/s ended in values that are not
-// finite. A chord of the law goes no nearer than to this part of the gap at the start. *
-REAL kLinearGap = 0.1;
+// finite. A chord of the law goes no nearer than to the second part of the gap at the start: with 0.1 a block that is lifted out of a
+// plane leaves it with 1.5 m/s. *
+REAL kLinearGap = 0.1, kChordGap = 0.25;
 // Reaches that begin smaller grow to all within a time [s].
 REAL kEasing = 1.0 / 3.0;
 // Parts of one body press from this part of their distance at rest on, if that is less than the reach.
@@ -107,8 +108,8 @@ REAL kLeastOfRounding = 8.0;
 // balls roll on each other, with these a tenth.
 REAL kShortestPiece = 1.0 / 16.0;
 
-// Rounding of energies, as a part of them.
-REAL kEnergyRounding = 1e-7;
+// Rounding of energies, as a part of them, and of bodies at rest [J/kg]: what they move with at 0.04 mm/s.
+REAL kEnergyRounding = 1e-7, kLeastEnergy = 1e-9;
 
 // The device.
 

@@ -419,7 +419,7 @@ inline constexpr Mutant kStepRowMutants[] = {
     {"nothing_slides", "sim/implicit/rows.glsl", "(size > limit ? limit / size * q : q)", "q"},
     {"tangents_have_no_law", "sim/implicit/rows.glsl", "slope_of(row, gap_at(row, s)) + row.damping",
      "row.damping"},
-    {"chords_close_gaps", "sim/implicit/rows.glsl", "max(there, kLinearGap * from)", "there"},
+    {"chords_close_gaps", "sim/implicit/rows.glsl", "max(there, kChordGap * from)", "there"},
     {"chords_have_no_friction", "sim/implicit/rows.glsl", "t.constant += f.constant;", ""},
     {"the_last_node_of_a_row_is_left_out", "sim/implicit/rows.glsl",
      "for (int k = 0; k < 4; ++k) s +=", "for (int k = 0; k < 3; ++k) s +="},

@@ -27,7 +27,8 @@ void add_gain(uint o, BodyPace pace, BodyEnergy before, inout double sums[kGainS
     sums[kMasses] += double(pace.velocity.w);
     sums[kOwed] += before.debt + gained - before.contacts;
     sums[kGained] += gained - part_sum(o, kContactsAtStart);
-    sums[kSlack] += double(kEnergyRounding) * (motions + abs(potential));
+    sums[kSlack] +=
+        double(kLeastEnergy) * double(pace.velocity.w) + double(kEnergyRounding) * (motions + abs(potential));
     sums[kMotionsBefore] += motions_before;
     for (uint k = 0u; k < 3u; ++k) {
         sums[kMomenta + k] += energy_sum(o, kMomentum + k);

@@ -41,7 +41,7 @@ StepRow row_of(NearPair near, PairWeight own) {
         row.hold = vec4(across_normal(hold.xyz, n), hold.w);
         row.reach = min(own.reach, own.known_reach + own.reach * clock[0].last_step / kEasing);
     } else {
-        row.hold.w = row.friction * force_of(row, max(own.there, kLinearGap * min(gap, row.reach)));
+        row.hold.w = row.friction * force_of(row, max(own.there, kChordGap * min(gap, row.reach)));
         // What is found nearer than all contacts that are known of two objects has not pressed so far: with all of its reach it
         // would bring in energy.
         float nearest = uintBitsToFloat(texelFetch(slot_rows, int(near.slot)).z);

@@ -55,7 +55,7 @@ StepRow row_of(uint c, uint n, PlaneMemory note, uint body) {
         row.hold = vec4(memory.hold.xyz - dot(memory.hold.xyz, surface.xyz) * surface.xyz, memory.hold.w);
     } else {
         float there = gap + dot(surface.xyz, expected.xyz);
-        row.hold.w = friction * force_of(row, max(there, kLinearGap * min(gap, row.reach)));
+        row.hold.w = friction * force_of(row, max(there, kChordGap * min(gap, row.reach)));
         // What is found nearer than all contacts that are known has not pressed so far: with all of its reach it would bring in
         // energy.
         float nearest = uintBitsToFloat(texelFetch(body_rows, int(body)).z);

@@ -89,7 +89,7 @@ StepTangent chord_at(StepRow row, vec3 s, float limit) {
     float gap = row.normal.w, there = gap_at(row, s);
     vec3 n = row.normal.xyz;
     if (min(gap, there) < row.reach) {
-        float from = min(gap, row.reach), to = gap > 0.0 ? max(there, kLinearGap * from) : there;
+        float from = min(gap, row.reach), to = gap > 0.0 ? max(there, kChordGap * from) : there;
         float force = force_of(row, from), slope = row.stiffness;
         if (to < from * 0.999999)
             slope = (force_of(row, to) - force) / (from - to);

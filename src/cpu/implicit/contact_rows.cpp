@@ -41,7 +41,7 @@ void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weigh
     } else {
         new_rows_.push_back(static_cast<std::uint32_t>(rows.size()));
         const Real nearest =
-            std::max(there, static_cast<Real>(tuning::kLinearGap) * std::min(row.gap, row.reach));
+            std::max(there, static_cast<Real>(tuning::kChordGap) * std::min(row.gap, row.reach));
         row.limit = row.friction * row.force_of(nearest);
     }
     // Of belts, whose surfaces move within themselves.

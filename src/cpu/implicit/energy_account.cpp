@@ -91,7 +91,8 @@ void EnergyAccount<Real>::find_energy(std::size_t body, const Nodes<Real>& nodes
     momenta_[body] = momentum;
     potentials_[body] = potential;
     after_[body] = motion + potential + gas;
-    rounding_[body] = tuning::kEnergyRounding * (motion + std::abs(potential) + std::abs(gas));
+    rounding_[body] = tuning::kLeastEnergy * object.mass +
+                      tuning::kEnergyRounding * (motion + std::abs(potential) + std::abs(gas));
 }
 
 // Each of two bodies has half.

@@ -30,7 +30,7 @@ void IslandRows<Real>::find_chords(std::span<const Vec3<Real>> expected_slips) c
         if (std::min(row.gap, there) < row.reach) {
             const Real from = std::min(row.gap, row.reach);
             const Real to =
-                row.gap > Real(0) ? std::max(there, static_cast<Real>(tuning::kLinearGap) * from) : there;
+                row.gap > Real(0) ? std::max(there, static_cast<Real>(tuning::kChordGap) * from) : there;
             const Real force = row.force_of(from);
             Real slope = row.stiffness;
             if (to < from * Real(0.999999)) {
