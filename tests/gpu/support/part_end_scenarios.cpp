@@ -191,7 +191,7 @@ Scenarios island_scenarios() {
     add("several_bounce", [] {
         return EndCase{.model = several_stiff_blocks(),
                        .parts = parts(14),
-                       .restitution = 0.5,
+                       .restitution = 0.4,
                        .bounces = true,
                        .contacts = true,
                        .island = 3};
