@@ -100,6 +100,10 @@ void expect_finite(unsigned first, unsigned end) {
 TEST(Fuzz, NothingIsEverNotFinite) {
     expect_finite(0, 40);
 }
+// Seed 128: a body begins in one point.
+TEST(Fuzz, BodiesInOnePointAreFinite) {
+    expect_finite(128, 129);
+}
 TEST(FuzzLong, NothingIsEverNotFinite) {
     expect_finite(40, 1040);
 }

@@ -1,5 +1,6 @@
 // What the free nodes of an island have in common: their mean displacement; a work group an object. Islands of which something is
-// held go as that does, if it all goes the same way. CPU twin: gelatin::cpu::Guard::find_frames. Parity: tests/gpu/implicit/pair_guard_test.cpp.
+// held go as that does, if it all goes the same way.
+// CPU twin: gelatin::cpu::Guard::find_frames. Parity: tests/gpu/implicit/pair_guard_test.cpp.
 const uint kSums = 10u;  // as guard_begin.comp has them
 const uint kOfHeld = 5u;
 #include "sim/implicit/guarded_pairs.glsl"
